@@ -17,12 +17,123 @@ pub enum Error {
         /// The admissible range.
         need: &'static str,
     },
+    /// A node has no neighbour within its horizon.
+    #[error(
+        "node {node} at {position:?} m has no neighbour within its horizon of {horizon:e} m: \
+         enlarge the horizon, refine around it, or remove the node"
+    )]
+    EmptyFamily {
+        /// The node.
+        node: usize,
+        /// Its reference position in metres.
+        position: Vec<f64>,
+        /// Its horizon in metres.
+        horizon: f64,
+    },
+    /// The shape tensor of a node cannot be inverted.
+    #[error(
+        "the shape tensor of node {node} has condition number {condition:e} (limit {limit:e}) with \
+         {neighbours} weighted neighbours: its bonds do not span the space. Use a larger horizon \
+         (the linear influence function gives bonds of length δ no weight, so m = 1 is singular), \
+         or the policy that detaches such nodes or inverts only the well-conditioned directions"
+    )]
+    SingularShapeTensor {
+        /// The node.
+        node: usize,
+        /// Its condition number (infinite if singular).
+        condition: f64,
+        /// The largest one accepted.
+        limit: f64,
+        /// Neighbours with weight.
+        neighbours: usize,
+    },
+    /// A node's deformation gradient has a determinant that is not positive.
+    #[error(
+        "the deformation of node {node} is inverted: J = det F = {det:e}. Take a smaller time step, \
+         a slower load or a criterion that breaks bonds earlier"
+    )]
+    Inverted {
+        /// The node.
+        node: usize,
+        /// J.
+        det: f64,
+    },
+    /// A component of a node is prescribed twice.
+    #[error("component {axis} of node {node} is prescribed by two conditions: keep one of them")]
+    ConflictingConditions {
+        /// The node.
+        node: usize,
+        /// The component.
+        axis: usize,
+    },
+    /// A time step above the body's critical one.
+    #[error(
+        "time step {dt:e} s is above the critical step {critical:e} s of this body: the run would \
+         blow up. Use TimeStep::Safety, a smaller step, or TimeStep::Unchecked if you mean it"
+    )]
+    UnstableTimeStep {
+        /// The step asked for, in seconds.
+        dt: f64,
+        /// The critical step, in seconds.
+        critical: f64,
+    },
+    /// A displacement or velocity is NaN or infinite.
+    #[error(
+        "displacement or velocity of node {node} is not finite at step {step}, t = {time:e} s: the \
+         run is unstable (time step, material) or a load is not finite"
+    )]
+    NotFinite {
+        /// The node.
+        node: usize,
+        /// Steps taken.
+        step: usize,
+        /// Time in seconds.
+        time: f64,
+    },
+    /// A node moves by more than its horizon in one step.
+    #[error(
+        "node {node} moves by more than a horizon in one step ({speed:e} m/s at step {step}, \
+         t = {time:e} s): the run blows up; take a smaller time step or check the material's symbol"
+    )]
+    BlowUp {
+        /// The node.
+        node: usize,
+        /// Steps taken.
+        step: usize,
+        /// Time in seconds.
+        time: f64,
+        /// Speed of the node in m/s.
+        speed: f64,
+    },
+    /// Another error, with the step and time at which it happened.
+    #[error("at step {step}, t = {time:e} s: {source}")]
+    During {
+        /// Number of the step.
+        step: usize,
+        /// Time in seconds.
+        time: f64,
+        /// What happened.
+        source: Box<Error>,
+    },
+    /// Bonds of a body without damage cannot be cut.
+    #[error(
+        "this body holds no bond bits (NoDamage): make it with Precracked or Breaking to cut bonds"
+    )]
+    NoBits,
+    /// An observer or output failed.
+    #[error("{0}")]
+    Other(String),
 }
 
 impl Error {
     /// `value` if `ok`, else [`Error::InvalidValue`].
     pub fn check(ok: bool, what: &'static str, value: f64, need: &'static str) -> Result<f64> {
         if ok { Ok(value) } else { Err(Self::InvalidValue { what, value, need }) }
+    }
+
+    /// This error, located in a run.
+    pub(crate) fn at(self, step: usize, time: f64) -> Self {
+        Self::During { step, time, source: Box::new(self) }
     }
 
     /// `value` if it is finite and positive.

@@ -1,0 +1,774 @@
+//! A body: a family, a material, a damage policy, and the node arrays they need.
+
+use crate::bond::{Bond, End, Neighbourhood};
+use crate::damage::{Check, DamagePolicy};
+use crate::family::{BondKernel, Family, Pair, Tally, Visit};
+use crate::material::{Material, StrainEnergy, StressState};
+use crate::record::{Field, Record};
+use crate::{Error, Real, Result};
+use nalgebra::{SMatrix, SVector};
+use rayon::prelude::*;
+
+/// Numbers that one task of an update works on.
+const CHUNK: usize = 8192;
+
+/// A body of nodes. Reads and writes SI units; inside, lengths are in units of Δx.
+///
+/// In 2D everything is per unit thickness unless [`with_thickness`](Self::with_thickness) says
+/// otherwise; only totals (energies, forces on node sets) depend on it.
+pub struct Body<T, const D: usize, F, M, P>
+where
+    T: Real,
+    F: Family<T, D>,
+    M: Material<T, D>,
+    P: DamagePolicy<T, D, M>,
+{
+    family: F,
+    material: M,
+    policy: P,
+    table: F::PerBond<M::BondConst>,
+    bits: Option<F::Bits>,
+    node_const: Field<T, M::NodeConst>,
+    node_state: Field<T, M::NodeState>,
+    criterion_const: Field<T, P::NodeConst>,
+    criterion_value: Field<T, P::NodeValue>,
+    u: Field<T, SVector<T, D>>,
+    v: Field<T, SVector<T, D>>,
+    force: Field<T, SVector<T, D>>,
+    inverse_mass: InverseMass<T>,
+    /// Volume of the reference families, where cut bonds have left them.
+    reference_volume: Option<Vec<f64>>,
+    thickness: f64,
+    broken: usize,
+    worst: f64,
+}
+
+/// 1/(ρ Δx²), which turns a force density into an acceleration in units of Δx.
+enum InverseMass<T> {
+    Uniform(T),
+    PerSite(Vec<T>),
+}
+
+/// The strain pass: family sums into node states.
+struct StrainKernel<'a, M>(&'a M);
+
+impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for StrainKernel<'_, M> {
+    type Const = M::BondConst;
+    type Node = M::NodeConst;
+    type Sum = M::FamilySum;
+    type Out = M::NodeState;
+
+    #[inline(always)]
+    fn start(&self) -> M::FamilySum {
+        M::FamilySum::default()
+    }
+    #[inline(always)]
+    fn add(
+        &self,
+        sum: &mut M::FamilySum,
+        bond: &Bond<T, D>,
+        pair: Pair<'_, T, M::BondConst>,
+        nodes: [&M::NodeConst; 2],
+    ) {
+        let end =
+            End { bond: pair.constants[0], node: nodes[0], state: &(), volume: pair.volumes[0] };
+        self.0.add_bond(sum, bond, end);
+    }
+    #[inline(always)]
+    fn close(
+        &self,
+        sum: &M::FamilySum,
+        node: &M::NodeConst,
+        previous: M::NodeState,
+    ) -> M::NodeState {
+        self.0.node_state(sum, node, &previous)
+    }
+}
+
+/// The force pass: pair forces into force densities.
+struct ForceKernel<'a, M>(&'a M);
+
+#[inline(always)]
+fn ends<'a, T: Real, const D: usize, M: Material<T, D>>(
+    pair: Pair<'a, T, M::BondConst>,
+    nodes: [&'a (M::NodeConst, M::NodeState); 2],
+) -> [End<'a, T, M::BondConst, M::NodeConst, M::NodeState>; 2] {
+    let [k0, k1] = pair.constants;
+    let [v0, v1] = pair.volumes;
+    [
+        End { bond: k0, node: &nodes[0].0, state: &nodes[0].1, volume: v0 },
+        End { bond: k1, node: &nodes[1].0, state: &nodes[1].1, volume: v1 },
+    ]
+}
+
+impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for ForceKernel<'_, M> {
+    type Const = M::BondConst;
+    type Node = (M::NodeConst, M::NodeState);
+    type Sum = SVector<T, D>;
+    type Out = SVector<T, D>;
+
+    #[inline(always)]
+    fn start(&self) -> SVector<T, D> {
+        SVector::zeros()
+    }
+    #[inline(always)]
+    fn add(
+        &self,
+        sum: &mut SVector<T, D>,
+        bond: &Bond<T, D>,
+        pair: Pair<'_, T, M::BondConst>,
+        nodes: [&Self::Node; 2],
+    ) {
+        *sum += self.0.pair_force(bond, ends::<T, D, M>(pair, nodes));
+    }
+    #[inline(always)]
+    fn close(&self, sum: &SVector<T, D>, _: &Self::Node, _: SVector<T, D>) -> SVector<T, D> {
+        *sum
+    }
+}
+
+/// The energy pass: W at every node.
+struct EnergyKernel<'a, M>(&'a M);
+
+impl<T: Real, const D: usize, M: StrainEnergy<T, D>> BondKernel<T, D> for EnergyKernel<'_, M> {
+    type Const = M::BondConst;
+    type Node = (M::NodeConst, M::NodeState);
+    type Sum = T;
+    type Out = T;
+
+    #[inline(always)]
+    fn start(&self) -> T {
+        T::zero()
+    }
+    #[inline(always)]
+    fn add(
+        &self,
+        sum: &mut T,
+        bond: &Bond<T, D>,
+        pair: Pair<'_, T, M::BondConst>,
+        nodes: [&Self::Node; 2],
+    ) {
+        let [end, _] = ends::<T, D, M>(pair, nodes);
+        *sum += self.0.bond_energy(bond, end) * end.volume;
+    }
+    #[inline(always)]
+    fn close(&self, sum: &T, (constants, state): &Self::Node, _: T) -> T {
+        *sum + self.0.node_energy(constants, state)
+    }
+}
+
+impl<T, const D: usize, F, M, P> Body<T, D, F, M, P>
+where
+    T: Real,
+    F: Family<T, D>,
+    M: Material<T, D>,
+    P: DamagePolicy<T, D, M>,
+{
+    /// A body at rest in its reference configuration.
+    ///
+    /// # Errors
+    /// [`Error::EmptyFamily`] for a node without neighbours, [`Error::InvalidValue`] for a density
+    /// that is not positive, and what the material, the cracks and the policy refuse.
+    pub fn new(family: F, material: M, policy: P) -> Result<Self> {
+        let (nodes, sites) = (family.nodes(), family.sites());
+        policy.validate(nodes)?;
+        let table = family.per_bond(&|xi, scale| material.bond_const(xi, scale));
+        let cracks = policy.cracks();
+        let mut bits = P::BITS.then(|| family.intact());
+        let mut reference_volume = None;
+        if let Some(bits) = &mut bits {
+            for crack in &cracks.surfaces {
+                let positions = (0..nodes).map(|node| family.position(node));
+                crate::crack::check_clear(crack.as_ref(), positions, family.unit())?;
+                let cuts =
+                    |a: usize, b: usize| crack.cuts(&family.position(a), &family.position(b));
+                family.cut(bits, &cuts);
+            }
+            if cracks.leave_family {
+                let volume = |node| family_volume(&family, node, Some(bits)).1;
+                reference_volume = Some((0..nodes).map(volume).collect());
+            }
+        }
+
+        let mut criterion_const = Field::zeros(if P::ACTIVE { sites } else { 0 });
+        if P::NodeConst::LEN > 0 {
+            for node in 0..nodes {
+                criterion_const
+                    .set(family.site(node), policy.node_const(node, family.scale(node)));
+            }
+        }
+        let unit2 = family.unit().powi(2);
+        let inverse = |node: usize| -> Result<T> {
+            let rho = Error::positive("density ρ [kg/m³]", material.density(node))?;
+            Ok(T::of(1.0 / (rho * unit2)))
+        };
+        let first = inverse(0)?;
+        let mut per_site = vec![first; sites];
+        let mut uniform = true;
+        for node in 1..nodes {
+            let value = inverse(node)?;
+            uniform &= value == first;
+            per_site[family.site(node)] = value;
+        }
+        let inverse_mass =
+            if uniform { InverseMass::Uniform(first) } else { InverseMass::PerSite(per_site) };
+
+        let mut body = Self {
+            node_const: Field::zeros(sites),
+            node_state: Field::zeros(sites),
+            criterion_const,
+            criterion_value: Field::zeros(if P::ACTIVE { sites } else { 0 }),
+            u: Field::zeros(sites),
+            v: Field::zeros(sites),
+            force: Field::zeros(sites),
+            family,
+            material,
+            policy,
+            table,
+            bits,
+            inverse_mass,
+            reference_volume,
+            thickness: 1.0,
+            broken: 0,
+            worst: 0.0,
+        };
+        body.set_node_constants()?;
+        if let Some(bits) = &mut body.bits {
+            F::clear_marks(bits);
+        }
+        Ok(body)
+    }
+
+    /// Thickness h of a 2D body in metres, for energies and total forces.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] unless positive, or in 3D.
+    pub fn with_thickness(mut self, thickness: f64) -> Result<Self> {
+        Error::check(D == 2, "thickness [m]", thickness, "given for 2D bodies only")?;
+        self.thickness = Error::positive("thickness [m]", thickness)?;
+        Ok(self)
+    }
+
+    fn set_node_constants(&mut self) -> Result<()> {
+        let Self { family, material, table, bits, policy, .. } = self;
+        // Bonds that have left the family count nowhere; other cut bonds count like bonds that
+        // break later: only for a material that follows damage.
+        let live = if M::FOLLOWS_DAMAGE || policy.cracks().leave_family {
+            bits.as_ref()
+        } else {
+            None
+        };
+        let constants: Result<Vec<M::NodeConst>> = (0..family.nodes())
+            .into_par_iter()
+            .map_init(Vec::new, |members, node| {
+                family.members(node, table, None, members);
+                if members.is_empty() {
+                    let position = family.position(node).iter().copied().collect();
+                    let horizon = family.scale(node).horizon * family.unit();
+                    return Err(Error::EmptyFamily { node, position, horizon });
+                }
+                if live.is_some() {
+                    family.members(node, table, live, members);
+                }
+                material.node_const(&Neighbourhood { node, scale: family.scale(node), members })
+            })
+            .collect();
+        for (node, value) in constants?.into_iter().enumerate() {
+            self.node_const.set(self.family.site(node), value);
+        }
+        Ok(())
+    }
+
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.family.nodes()
+    }
+    /// The family.
+    pub fn family(&self) -> &F {
+        &self.family
+    }
+    /// The material.
+    pub fn material(&self) -> &M {
+        &self.material
+    }
+    /// The damage policy.
+    pub fn policy(&self) -> &P {
+        &self.policy
+    }
+    /// Reference position x of a node in metres.
+    pub fn position(&self, node: usize) -> SVector<f64, D> {
+        self.family.position(node)
+    }
+    /// Volume of a node in m³ (in 2D area times thickness).
+    pub fn volume(&self, node: usize) -> f64 {
+        self.family.volume(node) * self.thickness
+    }
+    /// Mass of a node in kg.
+    pub fn mass(&self, node: usize) -> f64 {
+        self.material.density(node) * self.volume(node)
+    }
+    fn metres(&self, field: &Field<T, SVector<T, D>>, node: usize) -> SVector<f64, D> {
+        field.get(self.family.site(node)).map(|x| x.to_f64() * self.family.unit())
+    }
+    /// Displacement u of a node in metres.
+    pub fn displacement(&self, node: usize) -> SVector<f64, D> {
+        self.metres(&self.u, node)
+    }
+    /// Velocity v of a node in m/s.
+    pub fn velocity(&self, node: usize) -> SVector<f64, D> {
+        self.metres(&self.v, node)
+    }
+    /// Force density f of a node in N/m³, of the last evaluation (loads included).
+    pub fn force_density(&self, node: usize) -> SVector<f64, D> {
+        self.force.get(self.family.site(node)).map(|x| x.to_f64() / self.family.unit())
+    }
+    /// Constants of a node, lengths in units of Δx.
+    pub fn constants(&self, node: usize) -> M::NodeConst {
+        self.node_const.get(self.family.site(node))
+    }
+    /// State of a node of the last evaluation, lengths in units of Δx.
+    pub fn state(&self, node: usize) -> M::NodeState {
+        self.node_state.get(self.family.site(node))
+    }
+    /// The criterion's value at a node of the last test.
+    pub fn criterion_value(&self, node: usize) -> P::NodeValue {
+        self.criterion_value.get(self.family.site(node))
+    }
+    /// Sets the displacement of a node in metres.
+    pub fn set_displacement_of(&mut self, node: usize, u: &SVector<f64, D>) {
+        self.u.set(self.family.site(node), (u / self.family.unit()).map(T::of));
+    }
+    /// Sets the velocity of a node in m/s.
+    pub fn set_velocity_of(&mut self, node: usize, v: &SVector<f64, D>) {
+        self.v.set(self.family.site(node), (v / self.family.unit()).map(T::of));
+    }
+    /// Sets the displacement of every node from its reference position, both in metres.
+    pub fn set_displacement(&mut self, u: impl Fn(&SVector<f64, D>) -> SVector<f64, D>) {
+        (0..self.nodes()).for_each(|i| self.set_displacement_of(i, &u(&self.position(i))));
+    }
+    /// Sets the velocity of every node from its reference position, in m/s and metres.
+    pub fn set_velocity(&mut self, v: impl Fn(&SVector<f64, D>) -> SVector<f64, D>) {
+        (0..self.nodes()).for_each(|i| self.set_velocity_of(i, &v(&self.position(i))));
+    }
+
+    /// Number of undirected bonds broken since the start (pre-cracks do not count).
+    pub fn broken_bonds(&self) -> usize {
+        self.broken
+    }
+    /// The largest failure index met so far: "no bond broke; the worst reached 0.83".
+    pub fn worst_index(&self) -> f64 {
+        self.worst
+    }
+    /// Damage index φ = 1 − Σ μV / ΣV of a node.
+    pub fn damage(&self, node: usize) -> f64 {
+        let Some(bits) = &self.bits else { return 0.0 };
+        let (all, intact) = family_volume(&self.family, node, Some(bits));
+        let reference = self.reference_volume.as_ref().map_or(all, |volumes| volumes[node]);
+        if reference > 0.0 { 1.0 - intact / reference } else { 1.0 }
+    }
+    /// Visits the neighbours of a node, broken ones too.
+    pub fn neighbours(
+        &self,
+        node: usize,
+        mut visit: impl FnMut(crate::family::Neighbour<D>),
+    ) {
+        self.family.neighbours(node, self.bits.as_ref(), &mut visit);
+    }
+    /// Bytes held per part: what a scene does not need is 0.
+    pub fn memory(&self) -> Memory {
+        Memory {
+            family: self.family.bytes(),
+            bond_constants: F::per_bond_bytes(&self.table),
+            bond_bits: self.bits.as_ref().map_or(0, F::bits_bytes),
+            node_constants: self.node_const.bytes(),
+            node_states: self.node_state.bytes(),
+            criterion: self.criterion_const.bytes() + self.criterion_value.bytes(),
+            motion: self.u.bytes() + self.v.bytes() + self.force.bytes(),
+            density: match &self.inverse_mass {
+                InverseMass::Uniform(_) => 0,
+                InverseMass::PerSite(values) => values.capacity() * size_of::<T>(),
+            },
+        }
+    }
+
+    fn update_states(&mut self, visit: Visit) {
+        if M::NodeState::LEN > 0 {
+            self.family.sweep(
+                &StrainKernel(&self.material),
+                &self.table,
+                self.bits.as_ref(),
+                visit,
+                &self.u,
+                &self.node_const,
+                &mut self.node_state,
+            );
+        }
+    }
+    fn update_forces(&mut self) {
+        self.family.sweep(
+            &ForceKernel(&self.material),
+            &self.table,
+            self.bits.as_ref(),
+            Visit::All,
+            &self.u,
+            (&self.node_const, &self.node_state),
+            &mut self.force,
+        );
+    }
+    fn find_fault(&self) -> Result<()> {
+        if M::CAN_FAULT {
+            for node in 0..self.nodes() {
+                if let Some(det) = self.material.fault(&self.state(node)) {
+                    return Err(Error::Inverted { node, det });
+                }
+            }
+        }
+        Ok(())
+    }
+    /// Node constants and states of the nodes that lost a bond.
+    fn follow_damage(&mut self) -> Result<()> {
+        let Some(mut bits) = self.bits.take() else { return Ok(()) };
+        let mut result = Ok(());
+        if M::FOLLOWS_DAMAGE {
+            let Self { family, material, table, node_const, .. } = self;
+            let mut members = Vec::new();
+            family.marked(&bits, &mut |node| {
+                family.members(node, table, Some(&bits), &mut members);
+                let scale = family.scale(node);
+                match material.node_const(&Neighbourhood { node, scale, members: &members }) {
+                    Ok(value) => node_const.set(family.site(node), value),
+                    Err(error) => result = Err(error),
+                }
+            });
+        }
+        self.bits = Some(bits);
+        result?;
+        self.update_states(Visit::Marked);
+        if let Some(bits) = &mut self.bits {
+            F::clear_marks(bits);
+        }
+        Ok(())
+    }
+    /// Cuts every bond that crosses `crack`, now; returns how many were intact.
+    ///
+    /// # Errors
+    /// [`Error::NoBits`] for a body without damage, and a crack through a node.
+    pub fn cut(&mut self, crack: &dyn crate::crack::CrackSurface<D>) -> Result<usize> {
+        let Self { family, bits, .. } = self;
+        let bits = bits.as_mut().ok_or(Error::NoBits)?;
+        let positions = (0..family.nodes()).map(|node| family.position(node));
+        crate::crack::check_clear(crack, positions, family.unit())?;
+        let count = family
+            .cut(bits, &|a, b| crack.cuts(&family.position(a), &family.position(b)));
+        self.follow_damage()?;
+        Ok(count)
+    }
+}
+
+/// Σ βV over the family of a node: all bonds, and the intact ones.
+fn family_volume<T: Real, const D: usize, F: Family<T, D>>(
+    family: &F,
+    node: usize,
+    bits: Option<&F::Bits>,
+) -> (f64, f64) {
+    let (mut all, mut intact) = (0.0, 0.0);
+    family.neighbours(node, bits, &mut |n| {
+        all += n.volume;
+        intact += if n.intact { n.volume } else { 0.0 };
+    });
+    (all, intact)
+}
+
+impl<T, const D: usize, F, M, P> Body<T, D, F, M, P>
+where
+    T: Real,
+    F: Family<T, D>,
+    M: StrainEnergy<T, D>,
+    P: DamagePolicy<T, D, M>,
+{
+    /// Strain energy density W of every node in Pa, for the current displacements and the states
+    /// of the last evaluation.
+    pub fn energy_densities(&self) -> Vec<f64> {
+        let mut out: Field<T, T> = Field::zeros(self.family.sites());
+        self.family.sweep(
+            &EnergyKernel(&self.material),
+            &self.table,
+            self.bits.as_ref(),
+            Visit::All,
+            &self.u,
+            (&self.node_const, &self.node_state),
+            &mut out,
+        );
+        (0..self.nodes()).map(|node| out.get(self.family.site(node)).to_f64()).collect()
+    }
+    /// Strain energy in J (per metre of thickness in 2D unless a thickness is given).
+    pub fn strain_energy(&self) -> f64 {
+        let densities = self.energy_densities();
+        sum_in_order(densities.len(), |i| densities[i] * self.volume(i))
+    }
+}
+
+impl<T, const D: usize, F, M, P> Body<T, D, F, M, P>
+where
+    T: Real,
+    F: Family<T, D>,
+    M: StressState<T, D>,
+    P: DamagePolicy<T, D, M>,
+{
+    /// Cauchy stress σ of a node in Pa, of the last evaluation.
+    pub fn stress(&self, node: usize) -> SMatrix<f64, D, D> {
+        self.material.stress(&self.constants(node), &self.state(node)).map(Real::to_f64)
+    }
+}
+
+/// Σ g(i) in fixed chunks, so that the sum does not depend on the number of threads.
+pub fn sum_in_order(len: usize, g: impl Fn(usize) -> f64 + Sync) -> f64 {
+    let chunks: Vec<f64> = (0..len.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|c| (c * CHUNK..len.min((c + 1) * CHUNK)).map(&g).sum())
+        .collect();
+    chunks.iter().sum()
+}
+
+/// Bytes held by the parts of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Memory {
+    /// Neighbours, positions, volumes.
+    pub family: usize,
+    /// Constants per offset or bond.
+    pub bond_constants: usize,
+    /// Intact bits (0 without damage).
+    pub bond_bits: usize,
+    /// Constants per node (0 for bond-based materials).
+    pub node_constants: usize,
+    /// States per node (0 for bond-based materials).
+    pub node_states: usize,
+    /// Constants and values of the criterion.
+    pub criterion: usize,
+    /// Displacement, velocity and force.
+    pub motion: usize,
+    /// Densities (0 if they are all the same).
+    pub density: usize,
+}
+
+impl Memory {
+    /// All parts together.
+    pub fn total(&self) -> usize {
+        self.family
+            + self.bond_constants
+            + self.bond_bits
+            + self.node_constants
+            + self.node_states
+            + self.criterion
+            + self.motion
+            + self.density
+    }
+}
+
+/// What time integrators and observers need of a body, whatever it is made of.
+pub trait Dynamics<T: Real, const D: usize> {
+    /// Number of nodes.
+    fn nodes(&self) -> usize;
+    /// Place of a node in the arrays.
+    fn site(&self, node: usize) -> usize;
+    /// The unit of length Δx in metres: arrays hold lengths divided by it.
+    fn unit(&self) -> f64;
+    /// Largest horizon in units of Δx.
+    fn horizon(&self) -> f64;
+    /// Reference position of a node in metres.
+    fn position(&self, node: usize) -> SVector<f64, D>;
+    /// Volume of a node in m³.
+    fn volume(&self, node: usize) -> f64;
+    /// Mass of a node in kg.
+    fn mass(&self, node: usize) -> f64;
+    /// Damage index φ of a node.
+    fn damage(&self, node: usize) -> f64;
+    /// Bonds broken since the start.
+    fn broken_bonds(&self) -> usize;
+    /// Largest failure index so far.
+    fn worst_index(&self) -> f64;
+    /// Visits the neighbours of a node, broken ones too.
+    fn visit_neighbours(&self, node: usize, visit: &mut dyn FnMut(crate::family::Neighbour<D>));
+    /// Displacements in units of Δx.
+    fn u(&self) -> &Field<T, SVector<T, D>>;
+    /// Displacements in units of Δx.
+    fn u_mut(&mut self) -> &mut Field<T, SVector<T, D>>;
+    /// Velocities in Δx/s.
+    fn v(&self) -> &Field<T, SVector<T, D>>;
+    /// Velocities in Δx/s.
+    fn v_mut(&mut self) -> &mut Field<T, SVector<T, D>>;
+    /// Force densities in Pa/Δx.
+    fn force(&self) -> &Field<T, SVector<T, D>>;
+    /// Force densities in Pa/Δx.
+    fn force_mut(&mut self) -> &mut Field<T, SVector<T, D>>;
+    /// v += dt f/ρ.
+    fn kick(&mut self, dt: f64);
+    /// u += dt v.
+    fn drift(&mut self, dt: f64);
+    /// Node states and force densities of the current displacements; no bond is tested.
+    ///
+    /// # Errors
+    /// [`Error::Inverted`].
+    fn evaluate(&mut self) -> Result<()>;
+    /// As [`evaluate`](Self::evaluate), with a test of all bonds between states and forces if
+    /// `step` is a multiple of the policy's cadence; nodes that lost a bond are folded again, so
+    /// that forces never lag behind damage.
+    ///
+    /// # Errors
+    /// [`Error::Inverted`], and what the material refuses about a damaged family.
+    fn evaluate_and_break(&mut self, step: usize, events: &mut dyn BreakEvents<Self>)
+    -> Result<Tally>;
+    /// True if bonds can break.
+    fn can_break(&self) -> bool;
+    /// Acceleration of force density 1 at a site, 1/(ρ Δx²).
+    fn inverse_mass(&self, site: usize) -> T;
+}
+
+/// Called around the breaking of bonds, to account for what it dissipates.
+pub trait BreakEvents<B: ?Sized> {
+    /// Bonds are about to be tested.
+    fn before(&mut self, body: &B);
+    /// Bonds broke; states are those of the damaged body.
+    fn after(&mut self, body: &B, tally: Tally);
+}
+
+impl<B: ?Sized> BreakEvents<B> for () {
+    fn before(&mut self, _: &B) {}
+    fn after(&mut self, _: &B, _: Tally) {}
+}
+
+fn axpy<T: Real>(y: &mut [T], a: T, x: &[T]) {
+    y.par_chunks_mut(CHUNK).zip(x.par_chunks(CHUNK)).for_each(|(y, x)| {
+        for (y, x) in y.iter_mut().zip(x) {
+            *y += a * *x;
+        }
+    });
+}
+
+impl<T, const D: usize, F, M, P> Dynamics<T, D> for Body<T, D, F, M, P>
+where
+    T: Real,
+    F: Family<T, D>,
+    M: Material<T, D>,
+    P: DamagePolicy<T, D, M>,
+{
+    fn nodes(&self) -> usize {
+        self.family.nodes()
+    }
+    fn site(&self, node: usize) -> usize {
+        self.family.site(node)
+    }
+    fn unit(&self) -> f64 {
+        self.family.unit()
+    }
+    fn horizon(&self) -> f64 {
+        (0..self.nodes()).map(|node| self.family.scale(node).horizon).fold(0.0, f64::max)
+    }
+    fn position(&self, node: usize) -> SVector<f64, D> {
+        self.family.position(node)
+    }
+    fn volume(&self, node: usize) -> f64 {
+        Body::volume(self, node)
+    }
+    fn mass(&self, node: usize) -> f64 {
+        Body::mass(self, node)
+    }
+    fn damage(&self, node: usize) -> f64 {
+        Body::damage(self, node)
+    }
+    fn broken_bonds(&self) -> usize {
+        self.broken
+    }
+    fn worst_index(&self) -> f64 {
+        self.worst
+    }
+    fn visit_neighbours(&self, node: usize, visit: &mut dyn FnMut(crate::family::Neighbour<D>)) {
+        self.family.neighbours(node, self.bits.as_ref(), visit);
+    }
+    fn u(&self) -> &Field<T, SVector<T, D>> {
+        &self.u
+    }
+    fn u_mut(&mut self) -> &mut Field<T, SVector<T, D>> {
+        &mut self.u
+    }
+    fn v(&self) -> &Field<T, SVector<T, D>> {
+        &self.v
+    }
+    fn v_mut(&mut self) -> &mut Field<T, SVector<T, D>> {
+        &mut self.v
+    }
+    fn force(&self) -> &Field<T, SVector<T, D>> {
+        &self.force
+    }
+    fn force_mut(&mut self) -> &mut Field<T, SVector<T, D>> {
+        &mut self.force
+    }
+    fn kick(&mut self, dt: f64) {
+        let dt = T::of(dt);
+        match &self.inverse_mass {
+            InverseMass::Uniform(w) => {
+                axpy(self.v.as_mut_slice(), dt * *w, self.force.as_slice());
+            }
+            InverseMass::PerSite(w) => {
+                let sites = w.len();
+                let planes = self.v.as_mut_slice().par_chunks_mut(sites);
+                planes.zip(self.force.as_slice().par_chunks(sites)).for_each(|(v, f)| {
+                    for ((v, f), w) in v.iter_mut().zip(f).zip(w) {
+                        *v += dt * *w * *f;
+                    }
+                });
+            }
+        }
+    }
+    fn drift(&mut self, dt: f64) {
+        axpy(self.u.as_mut_slice(), T::of(dt), self.v.as_slice());
+    }
+    fn evaluate(&mut self) -> Result<()> {
+        self.update_states(Visit::All);
+        self.find_fault()?;
+        self.update_forces();
+        Ok(())
+    }
+    fn evaluate_and_break(
+        &mut self,
+        step: usize,
+        events: &mut dyn BreakEvents<Self>,
+    ) -> Result<Tally> {
+        self.update_states(Visit::All);
+        self.find_fault()?;
+        let mut tally = Tally::default();
+        if P::ACTIVE && step.is_multiple_of(self.policy.every()) {
+            events.before(self);
+            if let Some(bits) = &mut self.bits {
+                tally = self.policy.check(Check {
+                    family: &self.family,
+                    material: &self.material,
+                    table: &self.table,
+                    bits,
+                    u: &self.u,
+                    node_const: &self.node_const,
+                    node_state: &self.node_state,
+                    constants: &self.criterion_const,
+                    values: &mut self.criterion_value,
+                });
+            }
+            self.worst = self.worst.max(tally.worst);
+            if tally.broken > 0 {
+                self.broken += tally.broken;
+                self.follow_damage()?;
+                events.after(self, tally);
+            }
+        }
+        self.update_forces();
+        Ok(tally)
+    }
+    fn can_break(&self) -> bool {
+        P::ACTIVE
+    }
+    fn inverse_mass(&self, site: usize) -> T {
+        match &self.inverse_mass {
+            InverseMass::Uniform(w) => *w,
+            InverseMass::PerSite(w) => w[site],
+        }
+    }
+}

@@ -1,0 +1,613 @@
+//! Families on a uniform lattice: one table of offsets serves every node.
+//!
+//! Sites lie in rows along x, padded so that every offset of every node stays inside the arrays.
+//! The loop takes [`LANES`] consecutive sites at a time and runs through the offsets inside, so
+//! that scalar material code becomes vector code. Where a neighbour is missing (padding, holes,
+//! outlines, broken bonds) its lane is masked; blocks with nothing missing skip the masks.
+
+use crate::bond::{Bond, Member, Scale};
+use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
+use crate::grid::Grid;
+use crate::quadrature::Quadrature;
+use crate::record::{Field, Inputs, LANES, Record};
+use crate::{Error, Real, Result};
+use multiversion::multiversion;
+use nalgebra::SVector;
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
+
+/// Blocks that one task works on: fixed, so that nothing depends on the number of threads.
+const CHUNK: usize = 64;
+
+/// One entry of the offset table.
+#[derive(Debug, Clone, Copy)]
+struct Offset<T, const D: usize> {
+    /// Distance in the node arrays.
+    site: isize,
+    cell: [isize; D],
+    xi: SVector<T, D>,
+    xi64: SVector<f64, D>,
+    /// β V in Δx^D.
+    volume: T,
+    volume64: f64,
+}
+
+/// A uniform lattice with one offset table (see the module's head).
+#[derive(Debug, Clone)]
+pub struct Lattice<T, const D: usize> {
+    grid: Grid<D>,
+    scale: Scale,
+    /// Ascending, so the second half points to higher nodes.
+    offsets: Vec<Offset<T, D>>,
+    node_site: Vec<u32>,
+    sites: usize,
+    strides: [usize; D],
+    lead: usize,
+    /// One bit per site: is there a node?
+    present: Vec<u8>,
+    /// Per block: is every neighbour of every lane there?
+    interior: Vec<bool>,
+    bonds: usize,
+}
+
+/// One bit per undirected bond, those of eight consecutive nodes and one offset in a byte.
+#[derive(Debug)]
+pub struct LatticeBits {
+    /// `bytes[block * half + h]`, offset `half + h`.
+    bytes: Vec<u8>,
+    half: usize,
+    /// Per block: 1 if every neighbour of every lane is there and intact.
+    full: Vec<AtomicU8>,
+    /// Per block: the lanes that lost a bond since the marks were cleared.
+    marks: Vec<AtomicU8>,
+}
+
+impl<T: Real, const D: usize> Lattice<T, D> {
+    /// Families of the active cells of `grid`: all offsets with a positive weight β.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a horizon that is not positive or reaches no neighbour, or a
+    /// lattice with more sites than 32 bits count.
+    pub fn new(grid: &Grid<D>, horizon: Horizon, quadrature: Quadrature) -> Result<Self> {
+        let unit = grid.spacing()[0];
+        let delta = horizon.in_units(unit)?;
+        let cell = grid.spacing() / unit;
+        let cell_volume: f64 = cell.iter().product();
+        let reach = quadrature.reach(&cell, delta);
+        let reaches: [usize; D] =
+            std::array::from_fn(|d| (reach / cell[d] * (1.0 + 1e-9)).floor() as usize);
+        let cells = grid.cells();
+
+        let mut strides = [1; D];
+        for d in 1..D {
+            let row = strides[d - 1] * (cells[d - 1] + reaches[d - 1]);
+            strides[d] = if d == 1 { row.next_multiple_of(LANES) } else { row };
+        }
+        let margin: usize =
+            (0..D).map(|d| strides[d] * reaches[d]).sum::<usize>().next_multiple_of(LANES) + LANES;
+        let inner: usize = (0..D).map(|d| strides[d] * (cells[d] - 1)).sum::<usize>() + 1;
+        let sites = inner.next_multiple_of(LANES) + 2 * margin;
+        Error::check(
+            sites < u32::MAX as usize,
+            "number of lattice sites",
+            sites as f64,
+            "below 2^32; use a coarser lattice",
+        )?;
+
+        let mut offsets = Vec::new();
+        let span: [usize; D] = reaches.map(|r| 2 * r + 1);
+        for index in 0..span.iter().product() {
+            let mut rest = index;
+            let step: [isize; D] = std::array::from_fn(|d| {
+                let i = rest % span[d];
+                rest /= span[d];
+                i as isize - reaches[d] as isize
+            });
+            if step.iter().all(|&s| s == 0) {
+                continue;
+            }
+            let xi64 = SVector::from_fn(|d, _| step[d] as f64 * cell[d]);
+            let beta = quadrature.weight(&xi64, &cell, delta);
+            if beta > 0.0 {
+                let volume64 = beta * cell_volume;
+                offsets.push(Offset {
+                    site: (0..D).map(|d| step[d] * strides[d] as isize).sum(),
+                    cell: step,
+                    xi: xi64.map(T::of),
+                    xi64,
+                    volume: T::of(volume64),
+                    volume64,
+                });
+            }
+        }
+        Error::check(
+            !offsets.is_empty(),
+            "horizon ratio m = δ/Δx",
+            delta,
+            "large enough to reach a neighbour (m ≥ 1)",
+        )?;
+
+        let blocks = sites / LANES;
+        let mut lattice = Self {
+            grid: grid.clone(),
+            scale: Scale { horizon: delta, unit },
+            offsets,
+            node_site: Vec::with_capacity(grid.len()),
+            sites,
+            strides,
+            lead: margin,
+            present: vec![0; blocks + 1],
+            interior: Vec::new(),
+            bonds: 0,
+        };
+        for node in 0..grid.len() {
+            let site = lattice.site_of_cell(&grid.cell(node));
+            lattice.node_site.push(site as u32);
+            lattice.present[site / LANES] |= 1 << (site % LANES);
+        }
+        let half = lattice.half();
+        let counts: Vec<(bool, usize)> = (0..blocks)
+            .into_par_iter()
+            .map(|block| {
+                let mask = lattice.present[block];
+                if mask == 0 {
+                    return (false, 0);
+                }
+                let there = |o: usize| mask & lattice.present_byte(block, o);
+                let bonds = (half..2 * half).map(|o| there(o).count_ones() as usize).sum();
+                (mask == 0xff && (0..2 * half).all(|o| there(o) == 0xff), bonds)
+            })
+            .collect();
+        lattice.bonds = counts.iter().map(|c| c.1).sum();
+        lattice.interior = counts.into_iter().map(|c| c.0).collect();
+        Ok(lattice)
+    }
+
+    /// The grid this lattice was made from.
+    pub fn grid(&self) -> &Grid<D> {
+        &self.grid
+    }
+    /// Number of entries of the offset table: neighbours of a node in the bulk.
+    pub fn offsets(&self) -> usize {
+        self.offsets.len()
+    }
+
+    fn half(&self) -> usize {
+        self.offsets.len() / 2
+    }
+    fn site_of_cell(&self, cell: &[usize; D]) -> usize {
+        self.lead + (0..D).map(|d| cell[d] * self.strides[d]).sum::<usize>()
+    }
+    fn cell_of_site(&self, site: usize) -> [usize; D] {
+        let mut rest = site - self.lead;
+        let mut cell = [0; D];
+        for d in (0..D).rev() {
+            cell[d] = rest / self.strides[d];
+            rest %= self.strides[d];
+        }
+        cell
+    }
+    fn site_beyond(&self, block: usize, offset: usize) -> usize {
+        (block * LANES).wrapping_add_signed(self.offsets[offset].site)
+    }
+    /// Presence of the neighbours of the lanes of `block` along an offset.
+    #[inline(always)]
+    fn present_byte(&self, block: usize, offset: usize) -> u8 {
+        // The outermost blocks are padding: no neighbour of a node lies beyond the arrays.
+        let start = (block * LANES) as isize + self.offsets[offset].site;
+        if start < 0 || start as usize >= self.sites {
+            return 0;
+        }
+        byte_at(start as usize, |b| self.present[b])
+    }
+    fn node_at(&self, cell: [isize; D]) -> Option<usize> {
+        let cells = self.grid.cells();
+        let inside = (0..D).all(|d| (0..cells[d] as isize).contains(&cell[d]));
+        if inside { self.grid.node(cell.map(|c| c as usize)) } else { None }
+    }
+    /// Where the bit of the bond from `site` along `offset` is: (byte, bit).
+    #[inline(always)]
+    fn bit_of(&self, site: usize, offset: usize) -> (usize, usize) {
+        let half = self.half();
+        let (owner, h) = if offset >= half {
+            (site, offset - half)
+        } else {
+            (site.wrapping_add_signed(self.offsets[offset].site), half - 1 - offset)
+        };
+        ((owner / LANES) * half + h, owner % LANES)
+    }
+    #[inline(always)]
+    fn intact_byte(&self, bits: &LatticeBits, block: usize, offset: usize) -> u8 {
+        let half = bits.half;
+        if offset >= half {
+            bits.bytes[block * half + offset - half]
+        } else {
+            let h = half - 1 - offset;
+            byte_at(self.site_beyond(block, offset), |b| bits.bytes[b * half + h])
+        }
+    }
+}
+
+/// Eight bits from bit position `start` on.
+#[inline(always)]
+fn byte_at(start: usize, byte: impl Fn(usize) -> u8) -> u8 {
+    let (b, shift) = (start / LANES, start % LANES);
+    if shift == 0 {
+        byte(b)
+    } else {
+        ((u16::from(byte(b)) | u16::from(byte(b + 1)) << LANES) >> shift) as u8
+    }
+}
+
+/// Everything a chunk of a sweep reads.
+struct Job<'a, T, const D: usize, Kn: BondKernel<T, D>, I>
+where
+    T: Real,
+{
+    lattice: &'a Lattice<T, D>,
+    kernel: &'a Kn,
+    table: &'a [Kn::Const],
+    bits: Option<&'a LatticeBits>,
+    marked: bool,
+    u: &'a Field<T, SVector<T, D>>,
+    input: I,
+}
+
+#[inline(always)]
+fn relative<T: Real, const D: usize>(
+    near: &[[&[T; LANES]; D]; 1],
+    far: &[[&[T; LANES]; D]; 1],
+    lane: usize,
+) -> SVector<T, D> {
+    SVector::from_fn(|d, _| far[0][d][lane] - near[0][d][lane])
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn sweep_chunk<T, const D: usize, Kn, I>(
+    job: &Job<'_, T, D, Kn, I>,
+    blocks: Range<usize>,
+    mut out: <Kn::Out as Record<T>>::PlanesMut<'_>,
+) where
+    T: Real,
+    Kn: BondKernel<T, D>,
+    I: Inputs<T, Value = Kn::Node>,
+{
+    let lattice = job.lattice;
+    let first = blocks.start;
+    for block in blocks {
+        let mask = lattice.present[block];
+        if mask == 0 || job.marked && job.bits.is_some_and(|b| b.marks[block].load(Relaxed) == 0) {
+            continue;
+        }
+        let start = block * LANES;
+        let near = <SVector<T, D> as Record<T>>::block(job.u.as_slice(), lattice.sites, start);
+        let own_block = job.input.block(start);
+        let own: [Kn::Node; LANES] = std::array::from_fn(|l| I::lane(&own_block, l));
+        let mut sum: [Kn::Sum; LANES] = std::array::from_fn(|_| job.kernel.start());
+        let full = match job.bits {
+            Some(bits) => bits.full[block].load(Relaxed) == 1,
+            None => lattice.interior[block],
+        };
+        for (o, (offset, k)) in lattice.offsets.iter().zip(job.table).enumerate() {
+            let there = if full {
+                0xff
+            } else {
+                let there = match job.bits {
+                    Some(bits) => lattice.intact_byte(bits, block, o),
+                    None => mask & lattice.present_byte(block, o),
+                };
+                if there == 0 {
+                    continue;
+                }
+                there
+            };
+            let beyond = start.wrapping_add_signed(offset.site);
+            let far = <SVector<T, D> as Record<T>>::block(job.u.as_slice(), lattice.sites, beyond);
+            let other_block = job.input.block(beyond);
+            let pair = Pair { constants: [k, k], volumes: [offset.volume, offset.volume] };
+            if there == 0xff {
+                for l in 0..LANES {
+                    let bond = Bond { xi: offset.xi, eta: relative(&near, &far, l) };
+                    let other = I::lane(&other_block, l);
+                    job.kernel.add(&mut sum[l], &bond, pair, [&own[l], &other]);
+                }
+            } else {
+                for l in 0..LANES {
+                    let bond = Bond { xi: offset.xi, eta: relative(&near, &far, l) };
+                    let other = I::lane(&other_block, l);
+                    let mut with = sum[l];
+                    job.kernel.add(&mut with, &bond, pair, [&own[l], &other]);
+                    sum[l] = if there >> l & 1 == 1 { with } else { sum[l] };
+                }
+            }
+        }
+        for l in 0..LANES {
+            if mask >> l & 1 == 1 {
+                let at = (block - first) * LANES + l;
+                let previous = <Kn::Out as Record<T>>::read(&out, at);
+                job.kernel.close(&sum[l], &own[l], previous).write(&mut out, at);
+            }
+        }
+    }
+}
+
+/// Halves the range until it is one chunk; the planes are split along.
+fn sweep_range<T, const D: usize, Kn, I>(
+    job: &Job<'_, T, D, Kn, I>,
+    blocks: Range<usize>,
+    out: <Kn::Out as Record<T>>::PlanesMut<'_>,
+) where
+    T: Real,
+    Kn: BondKernel<T, D>,
+    I: Inputs<T, Value = Kn::Node>,
+{
+    if blocks.len() <= CHUNK {
+        sweep_chunk(job, blocks, out);
+    } else {
+        let mid = blocks.len() / 2;
+        let (low, high) = <Kn::Out as Record<T>>::split(out, mid * LANES);
+        let (a, b) = (blocks.start..blocks.start + mid, blocks.start + mid..blocks.end);
+        rayon::join(|| sweep_range(job, a, low), || sweep_range(job, b, high));
+    }
+}
+
+/// Everything a chunk of a test reads.
+struct TestJob<'a, T, const D: usize, B: BondTest<T, D>, I>
+where
+    T: Real,
+{
+    lattice: &'a Lattice<T, D>,
+    test: &'a B,
+    table: &'a [B::Const],
+    u: &'a Field<T, SVector<T, D>>,
+    input: I,
+    full: &'a [AtomicU8],
+    marks: &'a [AtomicU8],
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+fn break_chunk<T, const D: usize, B, I>(
+    job: &TestJob<'_, T, D, B, I>,
+    first: usize,
+    bytes: &mut [u8],
+) -> Tally
+where
+    T: Real,
+    B: BondTest<T, D>,
+    I: Inputs<T, Value = B::Node>,
+{
+    let lattice = job.lattice;
+    let half = lattice.half();
+    let mut broken = 0;
+    let mut worst = [T::zero(); LANES];
+    for (b, bytes) in bytes.chunks_exact_mut(half).enumerate() {
+        let block = first + b;
+        if lattice.present[block] == 0 {
+            continue;
+        }
+        let start = block * LANES;
+        let near = <SVector<T, D> as Record<T>>::block(job.u.as_slice(), lattice.sites, start);
+        let own_block = job.input.block(start);
+        let owned = lattice.offsets[half..].iter().zip(&job.table[half..]);
+        for (byte, (offset, k)) in bytes.iter_mut().zip(owned) {
+            if *byte == 0 {
+                continue;
+            }
+            let beyond = start.wrapping_add_signed(offset.site);
+            let far = <SVector<T, D> as Record<T>>::block(job.u.as_slice(), lattice.sites, beyond);
+            let other_block = job.input.block(beyond);
+            let pair = Pair { constants: [k, k], volumes: [offset.volume, offset.volume] };
+            let mut index = [T::zero(); LANES];
+            for l in 0..LANES {
+                let bond = Bond { xi: offset.xi, eta: relative(&near, &far, l) };
+                let (own, other) = (I::lane(&own_block, l), I::lane(&other_block, l));
+                let value = job.test.index(&bond, pair, [&own, &other]);
+                index[l] = if *byte >> l & 1 == 1 { value } else { T::zero() };
+            }
+            let mut fails = 0_u8;
+            for l in 0..LANES {
+                worst[l] = if index[l] > worst[l] { index[l] } else { worst[l] };
+                fails |= u8::from(index[l] > T::one()) << l;
+            }
+            if fails != 0 {
+                *byte &= !fails;
+                broken += fails.count_ones() as usize;
+                job.full[block].store(0, Relaxed);
+                job.marks[block].fetch_or(fails, Relaxed);
+                for l in (0..LANES).filter(|l| fails >> l & 1 == 1) {
+                    let site = beyond + l;
+                    job.full[site / LANES].store(0, Relaxed);
+                    job.marks[site / LANES].fetch_or(1 << (site % LANES), Relaxed);
+                }
+            }
+        }
+    }
+    let worst = worst.iter().fold(0.0_f64, |w, x| w.max(x.to_f64()));
+    Tally { broken, worst }
+}
+
+impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
+    type PerBond<K: Copy + Send + Sync> = Vec<K>;
+    type Bits = LatticeBits;
+
+    fn nodes(&self) -> usize {
+        self.grid.len()
+    }
+    fn sites(&self) -> usize {
+        self.sites
+    }
+    fn site(&self, node: usize) -> usize {
+        self.node_site[node] as usize
+    }
+    fn position(&self, node: usize) -> SVector<f64, D> {
+        self.grid.position(node)
+    }
+    fn volume(&self, _node: usize) -> f64 {
+        self.grid.cell_volume()
+    }
+    fn scale(&self, _node: usize) -> Scale {
+        self.scale
+    }
+    fn unit(&self) -> f64 {
+        self.scale.unit
+    }
+    fn bonds(&self) -> usize {
+        self.bonds
+    }
+    fn bytes(&self) -> usize {
+        self.node_site.capacity() * 4
+            + self.present.capacity()
+            + self.interior.capacity()
+            + self.offsets.capacity() * size_of::<Offset<T, D>>()
+            + self.grid.bytes()
+    }
+
+    fn per_bond<K: Copy + Send + Sync>(
+        &self,
+        constant: &(dyn Fn(&SVector<f64, D>, Scale) -> K + Sync),
+    ) -> Vec<K> {
+        self.offsets.iter().map(|o| constant(&o.xi64, self.scale)).collect()
+    }
+    fn per_bond_bytes<K: Copy + Send + Sync>(table: &Vec<K>) -> usize {
+        table.capacity() * size_of::<K>()
+    }
+
+    fn intact(&self) -> LatticeBits {
+        let half = self.half();
+        let blocks = self.sites / LANES;
+        let mut bytes = vec![0; blocks * half];
+        bytes.par_chunks_mut(half).enumerate().for_each(|(block, bytes)| {
+            let mask = self.present[block];
+            if mask != 0 {
+                for (h, byte) in bytes.iter_mut().enumerate() {
+                    *byte = mask & self.present_byte(block, half + h);
+                }
+            }
+        });
+        LatticeBits {
+            bytes,
+            half,
+            full: self.interior.iter().map(|&i| AtomicU8::new(i.into())).collect(),
+            marks: (0..blocks).map(|_| AtomicU8::new(0)).collect(),
+        }
+    }
+    fn bits_bytes(bits: &LatticeBits) -> usize {
+        bits.bytes.capacity() + bits.full.capacity() + bits.marks.capacity()
+    }
+    fn cut(&self, bits: &mut LatticeBits, cuts: &(dyn Fn(usize, usize) -> bool + Sync)) -> usize {
+        let half = self.half();
+        let mut count = 0;
+        for node in 0..self.nodes() {
+            let cell = self.grid.cell(node);
+            for o in half..2 * half {
+                let step = self.offsets[o].cell;
+                let to = std::array::from_fn(|d| cell[d] as isize + step[d]);
+                if self.node_at(to).is_some_and(|other| cuts(node, other)) {
+                    let site = self.site(node);
+                    let other = site.wrapping_add_signed(self.offsets[o].site);
+                    let (byte, bit) = self.bit_of(site, o);
+                    count += usize::from(bits.bytes[byte] >> bit & 1);
+                    bits.bytes[byte] &= !(1 << bit);
+                    for s in [site, other] {
+                        bits.full[s / LANES].store(0, Relaxed);
+                        bits.marks[s / LANES].fetch_or(1 << (s % LANES), Relaxed);
+                    }
+                }
+            }
+        }
+        count
+    }
+    fn marked(&self, bits: &LatticeBits, visit: &mut dyn FnMut(usize)) {
+        for (block, mark) in bits.marks.iter().enumerate() {
+            let mark = mark.load(Relaxed);
+            for lane in (0..LANES).filter(|lane| mark >> lane & 1 == 1) {
+                let cell = self.cell_of_site(block * LANES + lane);
+                if let Some(node) = self.grid.node(cell) {
+                    visit(node);
+                }
+            }
+        }
+    }
+    fn clear_marks(bits: &mut LatticeBits) {
+        for mark in &mut bits.marks {
+            *mark.get_mut() = 0;
+        }
+    }
+    fn neighbours(
+        &self,
+        node: usize,
+        bits: Option<&LatticeBits>,
+        visit: &mut dyn FnMut(Neighbour<D>),
+    ) {
+        let (cell, site) = (self.grid.cell(node), self.site(node));
+        for (o, offset) in self.offsets.iter().enumerate() {
+            let to = std::array::from_fn(|d| cell[d] as isize + offset.cell[d]);
+            if let Some(node) = self.node_at(to) {
+                let intact = bits.is_none_or(|bits| {
+                    let (byte, bit) = self.bit_of(site, o);
+                    bits.bytes[byte] >> bit & 1 == 1
+                });
+                visit(Neighbour { node, xi: offset.xi64, volume: offset.volume64, intact });
+            }
+        }
+    }
+    fn members<K: Copy + Send + Sync>(
+        &self,
+        node: usize,
+        table: &Vec<K>,
+        bits: Option<&LatticeBits>,
+        into: &mut Vec<Member<K, D>>,
+    ) {
+        into.clear();
+        let (block, lane) = (self.site(node) / LANES, self.site(node) % LANES);
+        for (o, (offset, &bond)) in self.offsets.iter().zip(table).enumerate() {
+            let byte = match bits {
+                Some(bits) => self.intact_byte(bits, block, o),
+                None => self.present_byte(block, o),
+            };
+            if byte >> lane & 1 == 1 {
+                into.push(Member { xi: offset.xi64, volume: offset.volume64, bond });
+            }
+        }
+    }
+
+    fn sweep<Kn, I>(
+        &self,
+        kernel: &Kn,
+        table: &Vec<Kn::Const>,
+        bits: Option<&LatticeBits>,
+        visit: Visit,
+        u: &Field<T, SVector<T, D>>,
+        input: I,
+        out: &mut Field<T, Kn::Out>,
+    ) where
+        Kn: BondKernel<T, D>,
+        I: Inputs<T, Value = Kn::Node>,
+    {
+        let marked = visit == Visit::Marked;
+        let job = Job { lattice: self, kernel, table, bits, marked, u, input };
+        sweep_range(&job, 0..self.sites / LANES, out.planes_mut());
+    }
+
+    fn break_bonds<B, I>(
+        &self,
+        test: &B,
+        table: &Vec<B::Const>,
+        bits: &mut LatticeBits,
+        u: &Field<T, SVector<T, D>>,
+        input: I,
+    ) -> Tally
+    where
+        B: BondTest<T, D>,
+        I: Inputs<T, Value = B::Node>,
+    {
+        let (full, marks) = (&bits.full[..], &bits.marks[..]);
+        let job = TestJob { lattice: self, test, table, u, input, full, marks };
+        bits.bytes
+            .par_chunks_mut(CHUNK * bits.half)
+            .enumerate()
+            .map(|(chunk, bytes)| break_chunk(&job, chunk * CHUNK, bytes))
+            .reduce(Tally::default, Tally::merge)
+    }
+}

@@ -1,0 +1,145 @@
+//! The material plugin: two passes, first a small node state from the family, then pair forces.
+
+use crate::bond::{Bond, End, Neighbourhood, Scale};
+use crate::record::Record;
+use crate::{Real, Result};
+use nalgebra::{SMatrix, SVector};
+
+/// A peridynamic material.
+///
+/// Lengths (ξ, η, volumes, horizon) are in units of Δx, moduli in Pa, so force states T are in
+/// Pa / Δx^(D+1) and need no thickness in 2D. Constants are computed once, in `f64`; the methods
+/// with `T` run in the loops over bonds and must not branch on data or fail.
+///
+/// Only the types, [`density`](Self::density), [`bond_const`](Self::bond_const) and
+/// [`force_state`](Self::force_state) are required; a material whose nodes carry nothing costs
+/// no array and no node pass.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a peridynamic material for {D}D and scalar `{T}`",
+    note = "implement `Material` (or `BondLaw` / `Constitutive` and wrap it)"
+)]
+pub trait Material<T: Real, const D: usize>: Send + Sync {
+    /// What is known from ξ alone: one entry per offset on a lattice, per bond in a cloud.
+    type BondConst: Copy + Send + Sync;
+    /// What is known from the reference family: 1/m, B, the node's own parameters.
+    type NodeConst: Record<T>;
+    /// The running sum over a family.
+    type FamilySum: Copy + Default + Send + Sync;
+    /// What the pair force needs of a node; `()` means no array and no node pass.
+    type NodeState: Record<T>;
+    /// True if node constants are those of the intact family: recomputed where a bond broke.
+    const FOLLOWS_DAMAGE: bool = false;
+
+    /// Mass density ρ of a node in kg/m³.
+    fn density(&self, node: usize) -> f64;
+
+    /// Constants of the bond ξ for an end with this horizon.
+    fn bond_const(&self, xi: &SVector<f64, D>, scale: Scale) -> Self::BondConst;
+
+    /// Constants of a node.
+    ///
+    /// # Errors
+    /// Whatever makes the node's family unusable, naming the node.
+    fn node_const(
+        &self,
+        family: &Neighbourhood<'_, Self::BondConst, D>,
+    ) -> Result<Self::NodeConst> {
+        let _ = family;
+        Ok(Record::zero())
+    }
+
+    /// Adds a bond to the family sum of `end` (whose state is not known yet).
+    #[inline(always)]
+    fn add_bond(
+        &self,
+        sum: &mut Self::FamilySum,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, ()>,
+    ) {
+        let _ = (sum, bond, end);
+    }
+
+    /// State of a node from its family sum.
+    #[inline(always)]
+    fn node_state(
+        &self,
+        sum: &Self::FamilySum,
+        constants: &Self::NodeConst,
+        previous: &Self::NodeState,
+    ) -> Self::NodeState {
+        let _ = (sum, constants, previous);
+        Record::zero()
+    }
+
+    /// Force vector state T⟨ξ⟩ of `end`.
+    fn force_state(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
+    ) -> SVector<T, D>;
+
+    /// What the bond adds to the force density of its first node, T⟨ξ⟩βV − T'⟨−ξ⟩β'V.
+    /// Override it where both ends share work.
+    #[inline(always)]
+    fn pair_force(
+        &self,
+        bond: &Bond<T, D>,
+        ends: [End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>; 2],
+    ) -> SVector<T, D> {
+        self.force_state(bond, ends[0]) * ends[0].volume
+            - self.force_state(&bond.reversed(), ends[1]) * ends[1].volume
+    }
+
+    /// True if the node has lost its shape tensor: it carries no stress and its bonds break.
+    #[inline(always)]
+    fn detached(&self, constants: &Self::NodeConst) -> bool {
+        let _ = constants;
+        false
+    }
+
+    /// True if [`fault`](Self::fault) can find something; then it is asked after every node pass.
+    const CAN_FAULT: bool = false;
+
+    /// det F of a node whose deformation the material cannot follow (J ≤ 0).
+    #[inline(always)]
+    fn fault(&self, state: &Self::NodeState) -> Option<f64> {
+        let _ = state;
+        None
+    }
+}
+
+/// A material with a stress at every node.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no stress at a node, so a stress-based criterion cannot use it",
+    label = "this material gives no stress",
+    note = "use a criterion on bonds (critical stretch, bond energy), or a correspondence or \
+            state-based material whose nodes have a strain"
+)]
+pub trait StressState<T: Real, const D: usize>: Material<T, D> {
+    /// Cauchy stress σ in Pa from the node's constants and state.
+    fn stress(&self, constants: &Self::NodeConst, state: &Self::NodeState) -> SMatrix<T, D, D>;
+}
+
+/// A material whose forces derive from an energy density W_i = node part + Σ bond part βV, in Pa.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no strain energy, so energies cannot be reported for it",
+    note = "implement `StrainEnergy`: a part per node and a part per bond"
+)]
+pub trait StrainEnergy<T: Real, const D: usize>: Material<T, D> {
+    /// The part of W that the node's constants and state give.
+    #[inline(always)]
+    fn node_energy(&self, constants: &Self::NodeConst, state: &Self::NodeState) -> T {
+        let _ = (constants, state);
+        T::zero()
+    }
+    /// The part of W that one bond adds, per β V.
+    #[inline(always)]
+    fn bond_energy(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
+    ) -> T {
+        let _ = (bond, end);
+        T::zero()
+    }
+}

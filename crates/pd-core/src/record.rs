@@ -1,0 +1,358 @@
+//! Fixed-size groups of scalars, and node arrays of them as planes (structure of arrays).
+//!
+//! A node state may be a scalar, a vector, a matrix, a pair of those or nothing. Stored as one
+//! plane per scalar, eight consecutive nodes are eight consecutive numbers, which is what lets
+//! plain scalar material code vectorise over nodes.
+
+use crate::Real;
+use nalgebra::SMatrix;
+
+/// Number of consecutive nodes that a lattice kernel handles together.
+pub const LANES: usize = 8;
+
+/// A fixed number of scalars that can be stored as planes: `T`, `()`, vectors, matrices, pairs.
+pub trait Record<T: Real>: Copy + Send + Sync + 'static {
+    /// Number of scalars.
+    const LEN: usize;
+    /// One plane per scalar, borrowed for writing.
+    type PlanesMut<'a>: Send;
+    /// [`LANES`] consecutive nodes of every plane.
+    type Block<'a>: Copy;
+
+    /// All scalars zero.
+    fn zero() -> Self;
+    /// Splits `data` (planes of length `stride`, one after the other) into planes.
+    fn planes_mut(data: &mut [T], stride: usize) -> Self::PlanesMut<'_>;
+    /// Splits every plane at `mid`.
+    fn split<'a>(
+        planes: Self::PlanesMut<'a>,
+        mid: usize,
+    ) -> (Self::PlanesMut<'a>, Self::PlanesMut<'a>);
+    /// The nodes `start .. start + LANES`.
+    fn block(data: &[T], stride: usize, start: usize) -> Self::Block<'_>;
+    /// Node `lane` of a block.
+    fn lane(block: &Self::Block<'_>, lane: usize) -> Self;
+    /// Node `i` of the planes.
+    fn load(data: &[T], stride: usize, i: usize) -> Self;
+    /// Node `i` of writable planes.
+    fn read(planes: &Self::PlanesMut<'_>, i: usize) -> Self;
+    /// Writes node `i`.
+    fn write(self, planes: &mut Self::PlanesMut<'_>, i: usize);
+}
+
+impl<T: Real> Record<T> for T {
+    const LEN: usize = 1;
+    type PlanesMut<'a> = &'a mut [T];
+    type Block<'a> = &'a [T; LANES];
+
+    #[inline(always)]
+    fn zero() -> Self {
+        T::zero()
+    }
+    #[inline(always)]
+    fn planes_mut(data: &mut [T], stride: usize) -> &mut [T] {
+        &mut data[..stride]
+    }
+    #[inline(always)]
+    fn split<'a>(
+        planes: Self::PlanesMut<'a>,
+        mid: usize,
+    ) -> (Self::PlanesMut<'a>, Self::PlanesMut<'a>) {
+        planes.split_at_mut(mid)
+    }
+    #[inline(always)]
+    fn block(data: &[T], _stride: usize, start: usize) -> &[T; LANES] {
+        data[start..start + LANES].try_into().expect("length is LANES")
+    }
+    #[inline(always)]
+    fn lane(block: &&[T; LANES], lane: usize) -> T {
+        block[lane]
+    }
+    #[inline(always)]
+    fn load(data: &[T], _stride: usize, i: usize) -> T {
+        data[i]
+    }
+    #[inline(always)]
+    fn read(planes: &&mut [T], i: usize) -> T {
+        planes[i]
+    }
+    #[inline(always)]
+    fn write(self, planes: &mut &mut [T], i: usize) {
+        planes[i] = self;
+    }
+}
+
+impl<T: Real> Record<T> for () {
+    const LEN: usize = 0;
+    type PlanesMut<'a> = ();
+    type Block<'a> = ();
+
+    #[inline(always)]
+    fn zero() -> Self {}
+    #[inline(always)]
+    fn planes_mut(_: &mut [T], _: usize) -> Self::PlanesMut<'_> {}
+    #[inline(always)]
+    fn split<'a>(
+        _: Self::PlanesMut<'a>,
+        _: usize,
+    ) -> (Self::PlanesMut<'a>, Self::PlanesMut<'a>) {
+        ((), ())
+    }
+    #[inline(always)]
+    fn block(_: &[T], _: usize, _: usize) -> Self::Block<'_> {}
+    #[inline(always)]
+    fn lane((): &(), _: usize) -> Self {}
+    #[inline(always)]
+    fn load(_: &[T], _: usize, _: usize) -> Self {}
+    #[inline(always)]
+    fn read((): &(), _: usize) -> Self {}
+    #[inline(always)]
+    fn write(self, (): &mut (), _: usize) {}
+}
+
+impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
+    const LEN: usize = R * C;
+    type PlanesMut<'a> = [[&'a mut [T]; R]; C];
+    type Block<'a> = [[&'a [T; LANES]; R]; C];
+
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::zeros()
+    }
+    #[inline(always)]
+    fn planes_mut(data: &mut [T], stride: usize) -> Self::PlanesMut<'_> {
+        let mut rest = data;
+        std::array::from_fn(|_| {
+            std::array::from_fn(|_| {
+                let (plane, tail) = std::mem::take(&mut rest).split_at_mut(stride);
+                rest = tail;
+                plane
+            })
+        })
+    }
+    #[inline(always)]
+    fn split<'a>(
+        planes: Self::PlanesMut<'a>,
+        mid: usize,
+    ) -> (Self::PlanesMut<'a>, Self::PlanesMut<'a>) {
+        let mut high = std::array::from_fn(|_| std::array::from_fn(|_| Default::default()));
+        let mut columns = high.iter_mut();
+        let low = planes.map(|column| {
+            let mut rows = columns.next().into_iter().flatten();
+            column.map(|plane| {
+                let (low, tail) = plane.split_at_mut(mid);
+                if let Some(slot) = rows.next() {
+                    *slot = tail;
+                }
+                low
+            })
+        });
+        (low, high)
+    }
+    #[inline(always)]
+    fn block(data: &[T], stride: usize, start: usize) -> Self::Block<'_> {
+        std::array::from_fn(|c| {
+            std::array::from_fn(|r| {
+                let at = (c * R + r) * stride + start;
+                data[at..at + LANES].try_into().expect("length is LANES")
+            })
+        })
+    }
+    #[inline(always)]
+    fn lane(block: &Self::Block<'_>, lane: usize) -> Self {
+        Self::from_fn(|r, c| block[c][r][lane])
+    }
+    #[inline(always)]
+    fn load(data: &[T], stride: usize, i: usize) -> Self {
+        Self::from_fn(|r, c| data[(c * R + r) * stride + i])
+    }
+    #[inline(always)]
+    fn read(planes: &Self::PlanesMut<'_>, i: usize) -> Self {
+        Self::from_fn(|r, c| planes[c][r][i])
+    }
+    #[inline(always)]
+    fn write(self, planes: &mut Self::PlanesMut<'_>, i: usize) {
+        for (column, values) in planes.iter_mut().zip(self.column_iter()) {
+            for (plane, value) in column.iter_mut().zip(values.iter()) {
+                plane[i] = *value;
+            }
+        }
+    }
+}
+
+impl<T: Real, A: Record<T>, B: Record<T>> Record<T> for (A, B) {
+    const LEN: usize = A::LEN + B::LEN;
+    type PlanesMut<'a> = (A::PlanesMut<'a>, B::PlanesMut<'a>);
+    type Block<'a> = (A::Block<'a>, B::Block<'a>);
+
+    #[inline(always)]
+    fn zero() -> Self {
+        (A::zero(), B::zero())
+    }
+    #[inline(always)]
+    fn planes_mut(data: &mut [T], stride: usize) -> Self::PlanesMut<'_> {
+        let (a, b) = data.split_at_mut(A::LEN * stride);
+        (A::planes_mut(a, stride), B::planes_mut(b, stride))
+    }
+    #[inline(always)]
+    fn split<'a>(
+        planes: Self::PlanesMut<'a>,
+        mid: usize,
+    ) -> (Self::PlanesMut<'a>, Self::PlanesMut<'a>) {
+        let (a, b) = planes;
+        let ((a0, a1), (b0, b1)) = (A::split(a, mid), B::split(b, mid));
+        ((a0, b0), (a1, b1))
+    }
+    #[inline(always)]
+    fn block(data: &[T], stride: usize, start: usize) -> Self::Block<'_> {
+        let (a, b) = data.split_at(A::LEN * stride);
+        (A::block(a, stride, start), B::block(b, stride, start))
+    }
+    #[inline(always)]
+    fn lane(block: &Self::Block<'_>, lane: usize) -> Self {
+        (A::lane(&block.0, lane), B::lane(&block.1, lane))
+    }
+    #[inline(always)]
+    fn load(data: &[T], stride: usize, i: usize) -> Self {
+        let (a, b) = data.split_at(A::LEN * stride);
+        (A::load(a, stride, i), B::load(b, stride, i))
+    }
+    #[inline(always)]
+    fn read(planes: &Self::PlanesMut<'_>, i: usize) -> Self {
+        (A::read(&planes.0, i), B::read(&planes.1, i))
+    }
+    #[inline(always)]
+    fn write(self, planes: &mut Self::PlanesMut<'_>, i: usize) {
+        self.0.write(&mut planes.0, i);
+        self.1.write(&mut planes.1, i);
+    }
+}
+
+/// A node array of records: planes of `stride` numbers, one plane per scalar of `R`.
+#[derive(Debug, Clone)]
+pub struct Field<T, R> {
+    data: Vec<T>,
+    stride: usize,
+    record: std::marker::PhantomData<R>,
+}
+
+impl<T: Real, R: Record<T>> Field<T, R> {
+    /// `len` zero records. A record of no scalars allocates nothing.
+    pub fn zeros(len: usize) -> Self {
+        Self { data: vec![T::zero(); R::LEN * len], stride: len, record: std::marker::PhantomData }
+    }
+    /// Number of records.
+    pub fn len(&self) -> usize {
+        self.stride
+    }
+    /// True for a field of no records.
+    pub fn is_empty(&self) -> bool {
+        self.stride == 0
+    }
+    /// Record `i`.
+    #[inline(always)]
+    pub fn get(&self, i: usize) -> R {
+        R::load(&self.data, self.stride, i)
+    }
+    /// Overwrites record `i`.
+    #[inline(always)]
+    pub fn set(&mut self, i: usize, value: R) {
+        value.write(&mut R::planes_mut(&mut self.data, self.stride), i);
+    }
+    /// All scalars, plane after plane.
+    pub fn as_slice(&self) -> &[T] {
+        &self.data
+    }
+    /// All scalars, plane after plane.
+    pub fn as_mut_slice(&mut self) -> &mut [T] {
+        &mut self.data
+    }
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.data.capacity() * size_of::<T>()
+    }
+    /// Writable planes.
+    pub(crate) fn planes_mut(&mut self) -> R::PlanesMut<'_> {
+        R::planes_mut(&mut self.data, self.stride)
+    }
+}
+
+/// What a kernel reads at a node: a field, a pair of inputs, or nothing.
+pub trait Inputs<T: Real>: Copy + Send + Sync {
+    /// The value at one node.
+    type Value: Copy;
+    /// [`LANES`] consecutive nodes.
+    type Block: Copy;
+    /// The nodes `start .. start + LANES`.
+    fn block(&self, start: usize) -> Self::Block;
+    /// Node `lane` of a block.
+    fn lane(block: &Self::Block, lane: usize) -> Self::Value;
+    /// Node `i`.
+    fn load(&self, i: usize) -> Self::Value;
+}
+
+impl<'a, T: Real, R: Record<T>> Inputs<T> for &'a Field<T, R> {
+    type Value = R;
+    type Block = R::Block<'a>;
+    #[inline(always)]
+    fn block(&self, start: usize) -> R::Block<'a> {
+        R::block(&self.data, self.stride, start)
+    }
+    #[inline(always)]
+    fn lane(block: &R::Block<'a>, lane: usize) -> R {
+        R::lane(block, lane)
+    }
+    #[inline(always)]
+    fn load(&self, i: usize) -> R {
+        self.get(i)
+    }
+}
+
+impl<T: Real, A: Inputs<T>, B: Inputs<T>> Inputs<T> for (A, B) {
+    type Value = (A::Value, B::Value);
+    type Block = (A::Block, B::Block);
+    #[inline(always)]
+    fn block(&self, start: usize) -> Self::Block {
+        (self.0.block(start), self.1.block(start))
+    }
+    #[inline(always)]
+    fn lane(block: &Self::Block, lane: usize) -> Self::Value {
+        (A::lane(&block.0, lane), B::lane(&block.1, lane))
+    }
+    #[inline(always)]
+    fn load(&self, i: usize) -> Self::Value {
+        (self.0.load(i), self.1.load(i))
+    }
+}
+
+/// Sites that one task of [`map_sites`] works on.
+const MAP_CHUNK: usize = 4096;
+
+/// `out[i] = f(input[i], out[i])` at every site, in parallel.
+pub(crate) fn map_sites<T: Real, I: Inputs<T>, R: Record<T>>(
+    input: I,
+    out: &mut Field<T, R>,
+    f: impl Fn(I::Value, R) -> R + Sync,
+) {
+    fn range<T: Real, I: Inputs<T>, R: Record<T>>(
+        input: I,
+        sites: std::ops::Range<usize>,
+        mut out: R::PlanesMut<'_>,
+        f: &(impl Fn(I::Value, R) -> R + Sync),
+    ) {
+        if sites.len() > MAP_CHUNK {
+            let mid = sites.len() / 2;
+            let (low, high) = R::split(out, mid);
+            let (a, b) = (sites.start..sites.start + mid, sites.start + mid..sites.end);
+            rayon::join(|| range(input, a, low, f), || range(input, b, high, f));
+        } else {
+            let first = sites.start;
+            for site in sites {
+                let previous = R::read(&out, site - first);
+                f(input.load(site), previous).write(&mut out, site - first);
+            }
+        }
+    }
+    let len = out.len();
+    range(input, 0..len, out.planes_mut(), &f);
+}

@@ -1,0 +1,389 @@
+//! The time loop: loads, steps, guards and observers.
+
+use crate::body::{Body, BreakEvents, Dynamics};
+use crate::damage::DamagePolicy;
+use crate::family::{Family, Tally};
+use crate::integrator::{Clock, Integrator, VelocityVerlet};
+use crate::loads::{Bound, Loads};
+use crate::material::StrainEnergy;
+use crate::time_step::{Spectrum, spectrum};
+use crate::{Error, Real, Result};
+use std::marker::PhantomData;
+
+/// How the time step is chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TimeStep {
+    /// This fraction of the body's critical step; lowered when damage lowers that.
+    Safety(f64),
+    /// Δt in seconds; refused above the body's critical step.
+    Fixed(f64),
+    /// Δt in seconds, whatever the critical step is.
+    Unchecked(f64),
+}
+
+/// Steps between looks at the critical step while bonds break.
+const REFRESH: usize = 500;
+/// Steps between guards against NaN and blow-up.
+const GUARD: usize = 20;
+
+/// What an observer decides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flow {
+    /// Go on.
+    Continue,
+    /// End the run after this step.
+    Stop,
+}
+
+/// Energies of a run in J (per metre of thickness in 2D unless the body has one).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Energies {
+    /// ½ Σ ρ V v².
+    pub kinetic: f64,
+    /// Σ W V.
+    pub strain: f64,
+    /// Work of body forces and supports since the start.
+    pub external: f64,
+    /// Strain energy lost when bonds broke.
+    pub dissipated: f64,
+}
+
+/// What an observer sees.
+pub struct View<'a, B> {
+    /// The body.
+    pub body: &'a B,
+    /// Steps taken.
+    pub step: usize,
+    /// Time t in seconds.
+    pub time: f64,
+    /// Time step Δt in seconds.
+    pub dt: f64,
+    /// When the run will end, in seconds.
+    pub end: f64,
+    /// Energies, if the run [accounts for them](Run::with_energies).
+    pub energies: Option<Energies>,
+}
+
+/// Looks at a run every n steps; may stop it.
+pub trait Observer<B> {
+    /// Called with the state after a step (and before the first).
+    ///
+    /// # Errors
+    /// Whatever ends the run.
+    fn observe(&mut self, view: &View<'_, B>) -> Result<Flow>;
+}
+
+impl<B, F: FnMut(&View<'_, B>) -> Result<Flow>> Observer<B> for F {
+    fn observe(&mut self, view: &View<'_, B>) -> Result<Flow> {
+        self(view)
+    }
+}
+
+/// Accounts for energies; only built for materials that have one.
+struct Account<B> {
+    strain_energy: fn(&B) -> f64,
+    energies: Energies,
+    before: f64,
+    power: f64,
+    support_kinetic: f64,
+}
+
+impl<B> BreakEvents<B> for Account<B> {
+    fn before(&mut self, body: &B) {
+        self.before = (self.strain_energy)(body);
+    }
+    fn after(&mut self, body: &B, _: Tally) {
+        self.energies.dissipated += self.before - (self.strain_energy)(body);
+    }
+}
+
+/// A run of a body through time.
+///
+/// ```text
+/// let mut run = Run::new(&mut body, loads, TimeStep::Safety(0.8))?;
+/// run.observe(100, |view| …);
+/// run.until(50e-6)?;
+/// ```
+pub struct Run<'a, T: Real, const D: usize, B, I = VelocityVerlet<T>> {
+    body: &'a mut B,
+    loads: Bound,
+    integrator: I,
+    rule: TimeStep,
+    dt: f64,
+    critical: Option<Spectrum>,
+    broken_at_refresh: usize,
+    time: f64,
+    step: usize,
+    observers: Vec<(usize, Box<dyn Observer<B> + 'a>)>,
+    account: Option<Account<B>>,
+    scalar: PhantomData<T>,
+}
+
+impl<'a, T: Real, const D: usize, B: Dynamics<T, D>> Run<'a, T, D, B> {
+    /// A run with velocity Verlet.
+    ///
+    /// # Errors
+    /// [`Error::UnstableTimeStep`] for a fixed step above the critical one,
+    /// [`Error::InvalidValue`] for a step or safety that is not positive, and what binding the
+    /// loads or evaluating forces reports.
+    pub fn new(body: &'a mut B, loads: Loads, rule: TimeStep) -> Result<Self> {
+        Self::with_integrator(body, loads, rule, VelocityVerlet::new())
+    }
+}
+
+impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a, T, D, B, I> {
+    /// A run with an integrator of choice.
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    pub fn with_integrator(
+        body: &'a mut B,
+        loads: Loads,
+        rule: TimeStep,
+        integrator: I,
+    ) -> Result<Self> {
+        let loads = loads.bind(body)?;
+        let mut run = Self {
+            body,
+            loads,
+            integrator,
+            rule,
+            dt: 0.0,
+            critical: None,
+            broken_at_refresh: 0,
+            time: 0.0,
+            step: 0,
+            observers: Vec::new(),
+            account: None,
+            scalar: PhantomData,
+        };
+        run.choose_time_step()?;
+        run.loads.place(run.body, 0.0);
+        run.body.evaluate()?;
+        run.loads.add_forces(run.body, 0.0);
+        Ok(run)
+    }
+
+    fn choose_time_step(&mut self) -> Result<()> {
+        let (TimeStep::Safety(given) | TimeStep::Fixed(given) | TimeStep::Unchecked(given)) =
+            self.rule;
+        Error::positive("time step Δt [s] or its safety factor", given)?;
+        if let TimeStep::Unchecked(dt) = self.rule {
+            self.dt = dt;
+            return Ok(());
+        }
+        let found = spectrum(self.body)?;
+        let critical = found.critical_time_step();
+        self.critical = Some(found);
+        self.broken_at_refresh = self.body.broken_bonds();
+        match self.rule {
+            TimeStep::Safety(safety) => {
+                Error::check(safety <= 1.0, "time step safety factor", safety, "at most 1")?;
+                self.dt = safety * critical;
+            }
+            _ => {
+                if given > critical {
+                    return Err(Error::UnstableTimeStep { dt: given, critical });
+                }
+                self.dt = given;
+            }
+        }
+        Ok(())
+    }
+
+    /// Calls `observer` before the first step and then every `every` steps.
+    pub fn observe(&mut self, every: usize, observer: impl Observer<B> + 'a) -> &mut Self {
+        self.observers.push((every.max(1), Box::new(observer)));
+        self
+    }
+    /// Time step Δt in seconds.
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+    /// Time t in seconds.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+    /// Steps taken.
+    pub fn steps(&self) -> usize {
+        self.step
+    }
+    /// The body.
+    pub fn body(&self) -> &B {
+        self.body
+    }
+    /// Spectrum the time step was chosen from (none for [`TimeStep::Unchecked`]).
+    pub fn spectrum(&self) -> Option<Spectrum> {
+        self.critical
+    }
+    /// Energies so far, if the run accounts for them.
+    pub fn energies(&self) -> Option<Energies> {
+        let account = self.account.as_ref()?;
+        Some(Energies {
+            kinetic: kinetic_energy(self.body),
+            strain: (account.strain_energy)(self.body),
+            ..account.energies
+        })
+    }
+
+    fn call_observers(&mut self, end: f64) -> Result<Flow> {
+        let due = |every: usize| self.step.is_multiple_of(every);
+        if !self.observers.iter().any(|(every, _)| due(*every)) {
+            return Ok(Flow::Continue);
+        }
+        self.guard()?;
+        let view = View {
+            body: &*self.body,
+            step: self.step,
+            time: self.time,
+            dt: self.dt,
+            end,
+            energies: self.energies(),
+        };
+        let mut flow = Flow::Continue;
+        for (every, observer) in &mut self.observers {
+            if self.step.is_multiple_of(*every) && observer.observe(&view)? == Flow::Stop {
+                flow = Flow::Stop;
+            }
+        }
+        Ok(flow)
+    }
+
+    /// Runs until time `end` in seconds (the last step may pass it by less than Δt).
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] and [`Error::BlowUp`] with step, time and node; what observers and the
+    /// evaluation of forces report.
+    pub fn until(&mut self, end: f64) -> Result<()> {
+        Error::check(end.is_finite(), "end time [s]", end, "finite")?;
+        if self.step == 0 && self.call_observers(end)? == Flow::Stop {
+            return Ok(());
+        }
+        while self.time < end * (1.0 - 1e-12) {
+            self.advance()?;
+            if self.call_observers(end)? == Flow::Stop {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes `steps` steps.
+    ///
+    /// # Errors
+    /// As [`Run::until`].
+    pub fn steps_more(&mut self, steps: usize) -> Result<()> {
+        let end = self.time + steps as f64 * self.dt;
+        if self.step == 0 && self.call_observers(end)? == Flow::Stop {
+            return Ok(());
+        }
+        for _ in 0..steps {
+            self.advance()?;
+            if self.call_observers(end)? == Flow::Stop {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn advance(&mut self) -> Result<()> {
+        self.step += 1;
+        let clock = Clock { step: self.step, time: self.time, dt: self.dt };
+        let located = |error: Error| error.at(clock.step, clock.time + clock.dt);
+        let tally = match &mut self.account {
+            Some(account) => {
+                self.integrator.step(self.body, &self.loads, clock, account).map_err(located)?
+            }
+            None => {
+                self.integrator.step(self.body, &self.loads, clock, &mut ()).map_err(located)?
+            }
+        };
+        self.time += self.dt;
+        let _ = tally;
+        if let Some(account) = &mut self.account {
+            let power = self.loads.power(self.body, self.time);
+            let inertia = self.loads.support_kinetic_energy(self.body);
+            account.energies.external += 0.5 * (account.power + power) * self.dt
+                + (inertia - account.support_kinetic);
+            account.power = power;
+            account.support_kinetic = inertia;
+        }
+        if self.step.is_multiple_of(GUARD) {
+            self.guard()?;
+        }
+        let broken = self.body.broken_bonds();
+        if matches!(self.rule, TimeStep::Safety(_))
+            && broken > self.broken_at_refresh
+            && self.step.is_multiple_of(REFRESH)
+        {
+            let before = self.dt;
+            self.choose_time_step()?;
+            self.dt = self.dt.min(before);
+        }
+        Ok(())
+    }
+
+    /// Ends the run on values that are not finite, and on nodes that move by more than a horizon
+    /// in one step.
+    fn guard(&self) -> Result<()> {
+        let horizon = self.body.horizon();
+        for node in 0..self.body.nodes() {
+            let site = self.body.site(node);
+            let speed = self.body.v().get(site).map(Real::to_f64).norm();
+            let moved = self.body.u().get(site).map(Real::to_f64).norm();
+            let (step, time) = (self.step, self.time);
+            if !(speed.is_finite() && moved.is_finite()) {
+                return Err(Error::NotFinite { node, step, time });
+            }
+            if speed * self.dt > horizon {
+                let speed = speed * self.body.unit();
+                return Err(Error::BlowUp { node, step, time, speed });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<'a, T, const D: usize, F, M, P, I> Run<'a, T, D, Body<T, D, F, M, P>, I>
+where
+    T: Real,
+    F: Family<T, D>,
+    M: StrainEnergy<T, D>,
+    P: DamagePolicy<T, D, M>,
+    I: Integrator<T, D>,
+{
+    /// Accounts for kinetic, strain, external and dissipated energy from here on.
+    pub fn with_energies(mut self) -> Self {
+        self.account = Some(Account {
+            strain_energy: |body| body.strain_energy(),
+            energies: Energies::default(),
+            before: 0.0,
+            power: self.loads.power(self.body, self.time),
+            support_kinetic: self.loads.support_kinetic_energy(self.body),
+        });
+        self
+    }
+}
+
+/// ½ Σ ρ V v² in J.
+pub fn kinetic_energy<T: Real, const D: usize>(body: &impl Dynamics<T, D>) -> f64 {
+    let unit2 = body.unit().powi(2);
+    let mut energy = 0.0;
+    for node in 0..body.nodes() {
+        let v = body.v().get(body.site(node)).map(Real::to_f64);
+        energy += 0.5 * body.mass(node) * v.norm_squared() * unit2;
+    }
+    energy
+}
+
+/// Force in N that the supports of a node set must exert against the body, −Σ f V.
+pub fn reaction<T: Real, const D: usize>(
+    body: &impl Dynamics<T, D>,
+    nodes: &crate::grid::NodeSet,
+) -> nalgebra::SVector<f64, D> {
+    nodes.iter().fold(nalgebra::SVector::zeros(), |sum, node| {
+        let f = body.force().get(body.site(node)).map(Real::to_f64) / body.unit();
+        sum - f * body.volume(node)
+    })
+}
+

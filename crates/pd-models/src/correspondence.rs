@@ -1,0 +1,407 @@
+//! Non-ordinary correspondence (NOSB, Hattori §3.1): a classical constitutive law at every node.
+
+use crate::elasticity::Stiffness;
+use crate::{Error, Result};
+use nalgebra::{SMatrix, SVector};
+use pd_core::bond::{Bond, End, Neighbourhood, Scale};
+use pd_core::influence::{Influence, moment};
+use pd_core::material::{Material, StrainEnergy, StressState};
+use pd_core::record::Record;
+use pd_core::shape::{ShapePolicy, shape_tensor};
+use pd_core::{Real, Result as CoreResult};
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// A classical constitutive law. H = F − I is the displacement gradient, first index spatial.
+///
+/// A law of your own is the one method [`stress`](Self::stress).
+pub trait Constitutive<T: Real, const D: usize>: Send + Sync {
+    /// First Piola–Kirchhoff stress P = ∂W/∂F in Pa (errata 000-1, 000-2), P_iJ.
+    fn stress(&self, h: &SMatrix<T, D, D>) -> SMatrix<T, D, D>;
+
+    /// Cauchy stress σ = P Fᵀ/J in Pa (for small strains P itself).
+    #[inline(always)]
+    fn cauchy(&self, h: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {
+        let f = h + SMatrix::identity();
+        self.stress(h) * f.transpose() / determinant(&f)
+    }
+    /// True if the law needs J = det F > 0.
+    const NEEDS_POSITIVE_J: bool = false;
+}
+
+/// A law with an energy density, so that energies can be reported.
+pub trait Hyperelastic<T: Real, const D: usize>: Constitutive<T, D> {
+    /// W in Pa.
+    fn energy(&self, h: &SMatrix<T, D, D>) -> T;
+}
+
+/// Σ A_ij B_ij.
+#[inline(always)]
+fn double_dot<T: Real, const D: usize>(a: &SMatrix<T, D, D>, b: &SMatrix<T, D, D>) -> T {
+    a.component_mul(b).sum()
+}
+
+/// Determinant for D = 1, 2, 3 without branches on data.
+#[inline(always)]
+fn determinant<T: Real, const D: usize>(a: &SMatrix<T, D, D>) -> T {
+    match D {
+        1 => a[0],
+        2 => a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(1, 0)],
+        _ => {
+            let minor =
+                |i: usize, j: usize| a[(1, i)] * a[(2, j)] - a[(1, j)] * a[(2, i)];
+            a[(0, 0)] * minor(1, 2) - a[(0, 1)] * minor(0, 2) + a[(0, 2)] * minor(0, 1)
+        }
+    }
+}
+
+/// F⁻ᵀ det F for D = 2, 3 (the cofactor matrix).
+#[inline(always)]
+fn cofactor<T: Real, const D: usize>(a: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {
+    SMatrix::from_fn(|i, j| {
+        if D == 2 {
+            let sign = if i == j { T::one() } else { -T::one() };
+            sign * a[(1 - i, 1 - j)]
+        } else {
+            let (r, s) = ((i + 1) % D, (i + 2) % D);
+            let (p, q) = ((j + 1) % D, (j + 2) % D);
+            a[(r, p)] * a[(s, q)] - a[(r, q)] * a[(s, p)]
+        }
+    })
+}
+
+/// Linear elasticity for small strains with any stiffness: ε = sym(H), P ≈ σ = C:ε.
+#[derive(Debug, Clone)]
+pub struct LinearElastic<const D: usize>(pub Stiffness<D>);
+
+impl<T: Real, const D: usize> Constitutive<T, D> for LinearElastic<D> {
+    #[inline(always)]
+    fn stress(&self, h: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {
+        self.0.contract(&((h + h.transpose()) * T::of(0.5)))
+    }
+    #[inline(always)]
+    fn cauchy(&self, h: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {
+        self.stress(h)
+    }
+}
+
+impl<T: Real, const D: usize> Hyperelastic<T, D> for LinearElastic<D> {
+    #[inline(always)]
+    fn energy(&self, h: &SMatrix<T, D, D>) -> T {
+        T::of(0.5) * double_dot(&self.stress(h), h)
+    }
+}
+
+/// Saint-Venant–Kirchhoff with any stiffness: E = ½(H + Hᵀ + HᵀH), S = C:E, P = F S.
+#[derive(Debug, Clone)]
+pub struct SaintVenantKirchhoff<const D: usize>(pub Stiffness<D>);
+
+impl<const D: usize> SaintVenantKirchhoff<D> {
+    #[inline(always)]
+    fn green<T: Real>(h: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {
+        (h + h.transpose() + h.transpose() * h) * T::of(0.5)
+    }
+}
+
+impl<T: Real, const D: usize> Constitutive<T, D> for SaintVenantKirchhoff<D> {
+    const NEEDS_POSITIVE_J: bool = true;
+    #[inline(always)]
+    fn stress(&self, h: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {
+        let s = self.0.contract(&Self::green(h));
+        s + h * s
+    }
+}
+
+impl<T: Real, const D: usize> Hyperelastic<T, D> for SaintVenantKirchhoff<D> {
+    #[inline(always)]
+    fn energy(&self, h: &SMatrix<T, D, D>) -> T {
+        let e = Self::green(h);
+        T::of(0.5) * double_dot(&self.0.contract(&e), &e)
+    }
+}
+
+/// Compressible neo-Hookean: W = ½μ(tr FᵀF − D) − μ ln J + ½λ (ln J)², P = μ(F − F⁻ᵀ) + λ ln J F⁻ᵀ.
+/// In 2D plane strain with the Lamé constants of space.
+#[derive(Debug, Clone, Copy)]
+pub struct NeoHookean {
+    /// Lamé's λ in Pa.
+    lambda: f64,
+    /// Shear modulus μ in Pa.
+    mu: f64,
+}
+
+impl NeoHookean {
+    /// From isotropic moduli.
+    pub fn new(moduli: &crate::elasticity::Isotropic) -> Self {
+        Self { lambda: moduli.lame(), mu: moduli.shear() }
+    }
+}
+
+impl<T: Real, const D: usize> Constitutive<T, D> for NeoHookean {
+    const NEEDS_POSITIVE_J: bool = true;
+    #[inline(always)]
+    fn stress(&self, h: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {
+        let f = h + SMatrix::identity();
+        let j = determinant(&f);
+        let inverse_transpose = cofactor(&f) / j;
+        let (lambda, mu) = (T::of(self.lambda), T::of(self.mu));
+        f * mu + inverse_transpose * (lambda * j.ln() - mu)
+    }
+}
+
+impl<T: Real, const D: usize> Hyperelastic<T, D> for NeoHookean {
+    #[inline(always)]
+    fn energy(&self, h: &SMatrix<T, D, D>) -> T {
+        // tr FᵀF − D = 2 tr H + H:H keeps small strains.
+        let excess = h.trace() * T::of(2.0) + double_dot(h, h);
+        let ln_j = determinant(&(h + SMatrix::identity())).ln();
+        let (lambda, mu) = (T::of(self.lambda), T::of(self.mu));
+        T::of(0.5) * mu * excess - mu * ln_j + T::of(0.5) * lambda * ln_j * ln_j
+    }
+}
+
+/// Control of zero-energy modes: what a node adds to T for the part of a bond that F does not
+/// explain, z = Y − Fξ = η − Hξ.
+pub trait ZeroEnergyControl<T: Real, const D: usize>: Send + Sync {
+    /// What it needs of a node.
+    type NodeConst: Record<T>;
+    /// From the node's B and the sum of ω βV.
+    fn node_const(&self, b: &SMatrix<f64, D, D>, omega_sum: f64, scale: Scale) -> Self::NodeConst;
+    /// Z⟨ξ⟩, with T = ω (P B ξ + Z).
+    fn force(&self, c: &Self::NodeConst, z: &SVector<T, D>) -> SVector<T, D>;
+}
+
+/// No control, as in Hattori: every zone-corner wave is a zero-energy mode (errata 000-20).
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoControl;
+
+impl<T: Real, const D: usize> ZeroEnergyControl<T, D> for NoControl {
+    type NodeConst = ();
+    fn node_const(&self, _: &SMatrix<f64, D, D>, _: f64, _: Scale) {}
+    #[inline(always)]
+    fn force(&self, (): &(), _: &SVector<T, D>) -> SVector<T, D> {
+        SVector::zeros()
+    }
+}
+
+/// Silling 2017: Z = (g c/ω₀) z with ω₀ = Σ ω βV and c = 18K/(πδ⁴) in 3D (2D²κ/∫|ξ|dV in general).
+#[derive(Debug, Clone, Copy)]
+pub struct SillingControl {
+    modulus: f64,
+    strength: f64,
+}
+
+impl SillingControl {
+    /// With the bulk modulus of space or plane in Pa and the strength g (about 1).
+    ///
+    /// # Errors
+    /// A modulus that is not positive, a strength that is negative.
+    pub fn new(bulk: f64, strength: f64) -> Result<Self> {
+        let modulus = pd_core::Error::positive("bulk modulus κ [Pa]", bulk)?;
+        Ok(Self { modulus, strength: checked_strength(strength)? })
+    }
+}
+
+fn checked_strength(g: f64) -> Result<f64> {
+    Ok(pd_core::Error::check(g.is_finite() && g >= 0.0, "control strength g", g, "finite and ≥ 0")?)
+}
+
+impl<T: Real, const D: usize> ZeroEnergyControl<T, D> for SillingControl {
+    /// g c/ω₀.
+    type NodeConst = T;
+    fn node_const(&self, b: &SMatrix<f64, D, D>, omega_sum: f64, scale: Scale) -> T {
+        let sphere = if D == 3 { 4.0 * PI } else { 2.0 * PI };
+        let constant = |_: f64| 1.0;
+        let integral = sphere * scale.horizon.powi(D as i32 + 1) * moment(&constant, D as i32);
+        let c = 2.0 * (D * D) as f64 * self.modulus / integral;
+        let detached = b.iter().all(|&x| x == 0.0);
+        T::of(if detached { 0.0 } else { self.strength * c / omega_sum })
+    }
+    #[inline(always)]
+    fn force(&self, c: &T, z: &SVector<T, D>) -> SVector<T, D> {
+        z * *c
+    }
+}
+
+/// Wan et al. 2019: Z = g C̄ z with C̄_ik = C_ijkl B_jl. g = 1 lifts the softest mode to the
+/// elastic value and shortens the stable time step by about half.
+#[derive(Debug, Clone)]
+pub struct WanControl<const D: usize> {
+    stiffness: Stiffness<D>,
+    strength: f64,
+}
+
+impl<const D: usize> WanControl<D> {
+    /// With the material's stiffness and the strength g (about 1).
+    ///
+    /// # Errors
+    /// A strength that is negative.
+    pub fn new(stiffness: &Stiffness<D>, strength: f64) -> Result<Self> {
+        Ok(Self { stiffness: stiffness.clone(), strength: checked_strength(strength)? })
+    }
+}
+
+impl<T: Real, const D: usize> ZeroEnergyControl<T, D> for WanControl<D> {
+    /// g C̄.
+    type NodeConst = SMatrix<T, D, D>;
+    fn node_const(&self, b: &SMatrix<f64, D, D>, _: f64, _: Scale) -> SMatrix<T, D, D> {
+        SMatrix::from_fn(|i, k| {
+            let mut sum = 0.0;
+            for j in 0..D {
+                for l in 0..D {
+                    sum += self.stiffness.c(i, j, k, l) * b[(j, l)];
+                }
+            }
+            T::of(self.strength * sum)
+        })
+    }
+    #[inline(always)]
+    fn force(&self, c: &SMatrix<T, D, D>, z: &SVector<T, D>) -> SVector<T, D> {
+        c * z
+    }
+}
+
+/// Correspondence material: H = (Σ μ ω η⊗ξ βV) B, T = ω (P(H) B ξ + Z), B = K⁻¹ of the intact
+/// family (errata 000-3: no transpose).
+#[derive(Clone)]
+pub struct Correspondence<L, Z = NoControl> {
+    law: L,
+    control: Z,
+    density: f64,
+    influence: Arc<dyn Influence>,
+    shape: ShapePolicy,
+}
+
+impl<L> Correspondence<L> {
+    /// Without control of zero-energy modes.
+    ///
+    /// # Errors
+    /// A density that is not positive.
+    pub fn new(law: L, density: f64, influence: impl Influence + 'static) -> Result<Self> {
+        let density = pd_core::Error::positive("density ρ [kg/m³]", density).map_err(Error::from)?;
+        let (influence, shape) = (Arc::new(influence), ShapePolicy::default());
+        Ok(Self { law, control: NoControl, density, influence, shape })
+    }
+}
+
+impl<L, Z> Correspondence<L, Z> {
+    /// With a control of zero-energy modes.
+    pub fn with_control<Y>(self, control: Y) -> Correspondence<L, Y> {
+        let Self { law, density, influence, shape, .. } = self;
+        Correspondence { law, control, density, influence, shape }
+    }
+    /// With a policy for singular shape tensors.
+    pub fn with_shape_policy(mut self, shape: ShapePolicy) -> Self {
+        self.shape = shape;
+        self
+    }
+    /// The constitutive law.
+    pub fn law(&self) -> &L {
+        &self.law
+    }
+}
+
+impl<T, const D: usize, L, Z> Material<T, D> for Correspondence<L, Z>
+where
+    T: Real,
+    L: Constitutive<T, D>,
+    Z: ZeroEnergyControl<T, D>,
+    SMatrix<T, D, D>: Default,
+{
+    /// ω.
+    type BondConst = T;
+    /// B and what the control needs.
+    type NodeConst = (SMatrix<T, D, D>, Z::NodeConst);
+    /// Σ μ ω η⊗ξ βV.
+    type FamilySum = SMatrix<T, D, D>;
+    /// P B, which the pair force needs, and H.
+    type NodeState = (SMatrix<T, D, D>, SMatrix<T, D, D>);
+    const FOLLOWS_DAMAGE: bool = true;
+    const CAN_FAULT: bool = L::NEEDS_POSITIVE_J;
+
+    fn density(&self, _: usize) -> f64 {
+        self.density
+    }
+    fn bond_const(&self, xi: &SVector<f64, D>, scale: Scale) -> T {
+        T::of(self.influence.weight(xi.norm() / scale.horizon))
+    }
+    fn node_const(&self, family: &Neighbourhood<'_, T, D>) -> CoreResult<Self::NodeConst> {
+        let k = shape_tensor(family, |omega| omega.to_f64());
+        let weighted = family.members.iter().filter(|m| m.bond > T::zero()).count();
+        let b = self.shape.invert(&k, family.node, weighted)?;
+        let omega_sum = family.sum(|m| m.bond.to_f64());
+        Ok((b.map(T::of), self.control.node_const(&b, omega_sum, family.scale)))
+    }
+    #[inline(always)]
+    fn add_bond(
+        &self,
+        sum: &mut SMatrix<T, D, D>,
+        bond: &Bond<T, D>,
+        end: End<'_, T, T, Self::NodeConst, ()>,
+    ) {
+        *sum += (bond.eta * (*end.bond * end.volume)) * bond.xi.transpose();
+    }
+    #[inline(always)]
+    fn node_state(
+        &self,
+        sum: &SMatrix<T, D, D>,
+        (b, _): &Self::NodeConst,
+        _: &Self::NodeState,
+    ) -> Self::NodeState {
+        let h = sum * b;
+        (self.law.stress(&h) * b, h)
+    }
+    #[inline(always)]
+    fn force_state(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, T, Self::NodeConst, Self::NodeState>,
+    ) -> SVector<T, D> {
+        let (pb, h) = end.state;
+        let z = bond.eta - h * bond.xi;
+        (pb * bond.xi + self.control.force(&end.node.1, &z)) * *end.bond
+    }
+    #[inline(always)]
+    fn detached(&self, (b, _): &Self::NodeConst) -> bool {
+        b.trace() == T::zero()
+    }
+    fn fault(&self, (_, h): &Self::NodeState) -> Option<f64> {
+        let j = determinant(&(h + SMatrix::identity())).to_f64();
+        (j <= 0.0 || j.is_nan()).then_some(j)
+    }
+}
+
+impl<T, const D: usize, L, Z> StressState<T, D> for Correspondence<L, Z>
+where
+    T: Real,
+    L: Constitutive<T, D>,
+    Z: ZeroEnergyControl<T, D>,
+    SMatrix<T, D, D>: Default,
+{
+    #[inline(always)]
+    fn stress(&self, _: &Self::NodeConst, (_, h): &Self::NodeState) -> SMatrix<T, D, D> {
+        self.law.cauchy(h)
+    }
+}
+
+impl<T, const D: usize, L, Z> StrainEnergy<T, D> for Correspondence<L, Z>
+where
+    T: Real,
+    L: Hyperelastic<T, D>,
+    Z: ZeroEnergyControl<T, D>,
+    SMatrix<T, D, D>: Default,
+{
+    #[inline(always)]
+    fn node_energy(&self, _: &Self::NodeConst, (_, h): &Self::NodeState) -> T {
+        self.law.energy(h)
+    }
+    #[inline(always)]
+    fn bond_energy(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, T, Self::NodeConst, Self::NodeState>,
+    ) -> T {
+        let z = bond.eta - end.state.1 * bond.xi;
+        T::of(0.5) * *end.bond * self.control.force(&end.node.1, &z).dot(&z)
+    }
+}
