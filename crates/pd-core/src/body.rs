@@ -59,10 +59,6 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for StrainKern
     type Out = M::NodeState;
 
     #[inline(always)]
-    fn start(&self) -> M::FamilySum {
-        M::FamilySum::default()
-    }
-    #[inline(always)]
     fn add(
         &self,
         sum: &mut M::FamilySum,
@@ -108,10 +104,6 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for ForceKerne
     type Out = SVector<T, D>;
 
     #[inline(always)]
-    fn start(&self) -> SVector<T, D> {
-        SVector::zeros()
-    }
-    #[inline(always)]
     fn add(
         &self,
         sum: &mut SVector<T, D>,
@@ -136,10 +128,6 @@ impl<T: Real, const D: usize, M: StrainEnergy<T, D>> BondKernel<T, D> for Energy
     type Sum = T;
     type Out = T;
 
-    #[inline(always)]
-    fn start(&self) -> T {
-        T::zero()
-    }
     #[inline(always)]
     fn add(
         &self,

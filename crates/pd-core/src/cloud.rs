@@ -215,7 +215,7 @@ fn sweep_range<T, const D: usize, Kn, I>(
         }
         let own = job.input.load(node);
         let u = job.u.get(node);
-        let mut sum = job.kernel.start();
+        let mut sum = <Kn::Sum as Record<T>>::zero();
         let begin = job.cloud.start[node];
         for (at, entry) in job.cloud.row(node).iter().enumerate() {
             if job.bits.is_some_and(|bits| !bits.intact(node, at)) {

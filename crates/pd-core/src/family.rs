@@ -18,18 +18,16 @@ pub struct Pair<'a, T, K> {
     pub volumes: [T; 2],
 }
 
-/// Work done over the families of all nodes: start, add every intact bond, close.
+/// Work done over the families of all nodes: from a zero sum add every intact bond, then close.
 pub trait BondKernel<T: Real, const D: usize>: Sync {
     /// Constants per bond.
     type Const: Copy + Send + Sync;
     /// What is read at both nodes of a bond.
     type Node: Copy;
     /// The running sum of one node.
-    type Sum: Copy;
+    type Sum: Record<T>;
     /// The result of one node.
     type Out: Record<T>;
-    /// The empty sum.
-    fn start(&self) -> Self::Sum;
     /// Adds one bond.
     fn add(
         &self,

@@ -283,8 +283,7 @@ fn sweep_chunk<T, const D: usize, Kn, I>(
         let start = block * LANES;
         let near = <SVector<T, D> as Record<T>>::block(job.u.as_slice(), lattice.sites, start);
         let own_block = job.input.block(start);
-        let own: [Kn::Node; LANES] = std::array::from_fn(|l| I::lane(&own_block, l));
-        let mut sum: [Kn::Sum; LANES] = std::array::from_fn(|_| job.kernel.start());
+        let mut sums = <Kn::Sum as Record<T>>::lanes();
         let full = match job.bits {
             Some(bits) => bits.full[block].load(Relaxed) == 1,
             None => lattice.interior[block],
@@ -309,25 +308,27 @@ fn sweep_chunk<T, const D: usize, Kn, I>(
             if there == 0xff {
                 for l in 0..LANES {
                     let bond = Bond { xi: offset.xi, eta: relative(&near, &far, l) };
-                    let other = I::lane(&other_block, l);
-                    job.kernel.add(&mut sum[l], &bond, pair, [&own[l], &other]);
+                    let nodes = [I::lane(&own_block, l), I::lane(&other_block, l)];
+                    let mut sum = <Kn::Sum as Record<T>>::get(&sums, l);
+                    job.kernel.add(&mut sum, &bond, pair, [&nodes[0], &nodes[1]]);
+                    sum.put(&mut sums, l);
                 }
             } else {
                 for l in 0..LANES {
                     let bond = Bond { xi: offset.xi, eta: relative(&near, &far, l) };
-                    let other = I::lane(&other_block, l);
-                    let mut with = sum[l];
-                    job.kernel.add(&mut with, &bond, pair, [&own[l], &other]);
-                    sum[l] = if there >> l & 1 == 1 { with } else { sum[l] };
+                    let nodes = [I::lane(&own_block, l), I::lane(&other_block, l)];
+                    let sum = <Kn::Sum as Record<T>>::get(&sums, l);
+                    let mut with = sum;
+                    job.kernel.add(&mut with, &bond, pair, [&nodes[0], &nodes[1]]);
+                    Record::select(there >> l & 1 == 1, with, sum).put(&mut sums, l);
                 }
             }
         }
-        for l in 0..LANES {
-            if mask >> l & 1 == 1 {
-                let at = (block - first) * LANES + l;
-                let previous = <Kn::Out as Record<T>>::read(&out, at);
-                job.kernel.close(&sum[l], &own[l], previous).write(&mut out, at);
-            }
+        for l in (0..LANES).filter(|l| mask >> l & 1 == 1) {
+            let at = (block - first) * LANES + l;
+            let previous = <Kn::Out as Record<T>>::read(&out, at);
+            let sum = <Kn::Sum as Record<T>>::get(&sums, l);
+            job.kernel.close(&sum, &I::lane(&own_block, l), previous).write(&mut out, at);
         }
     }
 }

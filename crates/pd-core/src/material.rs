@@ -24,7 +24,7 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
     /// What is known from the reference family: 1/m, B, the node's own parameters.
     type NodeConst: Record<T>;
     /// The running sum over a family.
-    type FamilySum: Copy + Default + Send + Sync;
+    type FamilySum: Record<T>;
     /// What the pair force needs of a node; `()` means no array and no node pass.
     type NodeState: Record<T>;
     /// True if node constants are those of the intact family: recomputed where a bond broke.

@@ -19,8 +19,19 @@ pub trait Record<T: Real>: Copy + Send + Sync + 'static {
     /// [`LANES`] consecutive nodes of every plane.
     type Block<'a>: Copy;
 
+    /// [`LANES`] records as planes, for running sums.
+    type Lanes: Copy;
+
     /// All scalars zero.
     fn zero() -> Self;
+    /// [`LANES`] zero records.
+    fn lanes() -> Self::Lanes;
+    /// Record `lane` of a running sum.
+    fn get(lanes: &Self::Lanes, lane: usize) -> Self;
+    /// Overwrites record `lane` of a running sum.
+    fn put(self, lanes: &mut Self::Lanes, lane: usize);
+    /// `a` where `on`, else `b`: a blend, not a branch.
+    fn select(on: bool, a: Self, b: Self) -> Self;
     /// Splits `data` (planes of length `stride`, one after the other) into planes.
     fn planes_mut(data: &mut [T], stride: usize) -> Self::PlanesMut<'_>;
     /// Splits every plane at `mid`.
@@ -44,10 +55,27 @@ impl<T: Real> Record<T> for T {
     const LEN: usize = 1;
     type PlanesMut<'a> = &'a mut [T];
     type Block<'a> = &'a [T; LANES];
+    type Lanes = [T; LANES];
 
     #[inline(always)]
     fn zero() -> Self {
         T::zero()
+    }
+    #[inline(always)]
+    fn lanes() -> [T; LANES] {
+        [T::zero(); LANES]
+    }
+    #[inline(always)]
+    fn get(lanes: &[T; LANES], lane: usize) -> T {
+        lanes[lane]
+    }
+    #[inline(always)]
+    fn put(self, lanes: &mut [T; LANES], lane: usize) {
+        lanes[lane] = self;
+    }
+    #[inline(always)]
+    fn select(on: bool, a: T, b: T) -> T {
+        if on { a } else { b }
     }
     #[inline(always)]
     fn planes_mut(data: &mut [T], stride: usize) -> &mut [T] {
@@ -86,9 +114,18 @@ impl<T: Real> Record<T> for () {
     const LEN: usize = 0;
     type PlanesMut<'a> = ();
     type Block<'a> = ();
+    type Lanes = ();
 
     #[inline(always)]
     fn zero() -> Self {}
+    #[inline(always)]
+    fn lanes() {}
+    #[inline(always)]
+    fn get((): &(), _: usize) {}
+    #[inline(always)]
+    fn put(self, (): &mut (), _: usize) {}
+    #[inline(always)]
+    fn select(_: bool, (): (), (): ()) {}
     #[inline(always)]
     fn planes_mut(_: &mut [T], _: usize) -> Self::PlanesMut<'_> {}
     #[inline(always)]
@@ -114,10 +151,31 @@ impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
     const LEN: usize = R * C;
     type PlanesMut<'a> = [[&'a mut [T]; R]; C];
     type Block<'a> = [[&'a [T; LANES]; R]; C];
+    type Lanes = [[[T; LANES]; R]; C];
 
     #[inline(always)]
     fn zero() -> Self {
         Self::zeros()
+    }
+    #[inline(always)]
+    fn lanes() -> Self::Lanes {
+        [[[T::zero(); LANES]; R]; C]
+    }
+    #[inline(always)]
+    fn get(lanes: &Self::Lanes, lane: usize) -> Self {
+        Self::from_fn(|r, c| lanes[c][r][lane])
+    }
+    #[inline(always)]
+    fn put(self, lanes: &mut Self::Lanes, lane: usize) {
+        for c in 0..C {
+            for r in 0..R {
+                lanes[c][r][lane] = self[(r, c)];
+            }
+        }
+    }
+    #[inline(always)]
+    fn select(on: bool, a: Self, b: Self) -> Self {
+        Self::from_fn(|r, c| if on { a[(r, c)] } else { b[(r, c)] })
     }
     #[inline(always)]
     fn planes_mut(data: &mut [T], stride: usize) -> Self::PlanesMut<'_> {
@@ -184,10 +242,28 @@ impl<T: Real, A: Record<T>, B: Record<T>> Record<T> for (A, B) {
     const LEN: usize = A::LEN + B::LEN;
     type PlanesMut<'a> = (A::PlanesMut<'a>, B::PlanesMut<'a>);
     type Block<'a> = (A::Block<'a>, B::Block<'a>);
+    type Lanes = (A::Lanes, B::Lanes);
 
     #[inline(always)]
     fn zero() -> Self {
         (A::zero(), B::zero())
+    }
+    #[inline(always)]
+    fn lanes() -> Self::Lanes {
+        (A::lanes(), B::lanes())
+    }
+    #[inline(always)]
+    fn get(lanes: &Self::Lanes, lane: usize) -> Self {
+        (A::get(&lanes.0, lane), B::get(&lanes.1, lane))
+    }
+    #[inline(always)]
+    fn put(self, lanes: &mut Self::Lanes, lane: usize) {
+        self.0.put(&mut lanes.0, lane);
+        self.1.put(&mut lanes.1, lane);
+    }
+    #[inline(always)]
+    fn select(on: bool, a: Self, b: Self) -> Self {
+        (A::select(on, a.0, b.0), B::select(on, a.1, b.1))
     }
     #[inline(always)]
     fn planes_mut(data: &mut [T], stride: usize) -> Self::PlanesMut<'_> {

@@ -148,8 +148,6 @@ pub struct PolynomialBond<T, const S: usize> {
 }
 
 impl<T: Real, const D: usize, const S: usize> ScalarState<T, D> for PolynomialMicromoduli<D, S>
-where
-    SVector<T, S>: Default,
 {
     type BondConst = PolynomialBond<T, S>;
     /// 1/m.
@@ -298,8 +296,6 @@ pub struct SplitBond<T, const V: usize> {
 }
 
 impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSplit<D, V>
-where
-    SVector<T, V>: Default,
 {
     type BondConst = SplitBond<T, V>;
     /// k₀/m and 𝓜⁻¹ L 𝓜⁻¹.

@@ -306,7 +306,6 @@ where
     T: Real,
     L: Constitutive<T, D>,
     Z: ZeroEnergyControl<T, D>,
-    SMatrix<T, D, D>: Default,
 {
     /// ω.
     type BondConst = T;
@@ -376,7 +375,6 @@ where
     T: Real,
     L: Constitutive<T, D>,
     Z: ZeroEnergyControl<T, D>,
-    SMatrix<T, D, D>: Default,
 {
     #[inline(always)]
     fn stress(&self, _: &Self::NodeConst, (_, h): &Self::NodeState) -> SMatrix<T, D, D> {
@@ -389,7 +387,6 @@ where
     T: Real,
     L: Hyperelastic<T, D>,
     Z: ZeroEnergyControl<T, D>,
-    SMatrix<T, D, D>: Default,
 {
     #[inline(always)]
     fn node_energy(&self, _: &Self::NodeConst, (_, h): &Self::NodeState) -> T {

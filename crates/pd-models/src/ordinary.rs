@@ -18,7 +18,7 @@ pub trait ScalarState<T: Real, const D: usize>: Send + Sync {
     /// Constants of a node.
     type NodeConst: Record<T>;
     /// Running sum over the family.
-    type FamilySum: Copy + Default + Send + Sync;
+    type FamilySum: Record<T>;
     /// State of a node.
     type NodeState: Record<T>;
 
