@@ -1,4 +1,8 @@
 //! Peridynamic bodies: grids, families, integrity, time integration and the plugin traits.
+//!
+//! A [`Body`] is a [`Family`] (who interacts with whom: [`Lattice`] or [`Cloud`]), a [`Material`]
+//! and a [`DamagePolicy`]; a [`Run`] takes it through time. Users see SI units; inside, lengths
+//! are in units of Δx (see [`Scale`]).
 pub mod body;
 pub mod bond;
 pub mod cloud;
@@ -23,5 +27,24 @@ pub mod search;
 pub mod shape;
 pub mod time_step;
 
+pub use body::{Body, Dynamics, Memory};
+pub use bond::{Bond, End, Member, Neighbourhood, Scale};
+pub use cloud::Cloud;
+pub use crack::CrackSurface;
+pub use damage::{
+    Breaking, DamageCriterion, DamagePolicy, NoDamage, Precracked, TestedBond,
+};
 pub use error::{Error, Result};
+pub use family::{Family, Horizon, Neighbour, Tally};
+pub use grid::{Grid, NodeSet};
+pub use influence::{Influence, InfluenceFunction};
+pub use integrator::{Integrator, SymplecticEuler, VelocityVerlet};
+pub use lattice::Lattice;
+pub use loads::Loads;
+pub use material::{Material, StrainEnergy, StressState};
+pub use points::Points;
+pub use quadrature::Quadrature;
 pub use real::Real;
+pub use record::{Field, Record};
+pub use run::{Energies, Flow, Observer, Run, TimeStep, View};
+pub use search::{Rows, neighbours};

@@ -24,8 +24,8 @@ pub enum Quadrature {
 const SMALLEST_FRACTION: f64 = 1e-14;
 
 impl Quadrature {
-    /// β of a neighbour at ξ = `xi` [m] whose box-shaped cell has the edges `cell` [m], for the
-    /// horizon δ = `horizon` [m]. Zero means no bond.
+    /// β of a neighbour at ξ = `xi` whose box-shaped cell has the edges `cell`, for the horizon
+    /// δ = `horizon`: all in metres, edges and horizon positive. Zero means no bond.
     ///
     /// The ramps take as Δx the edge of the cell along the bond, |(ξ_k Δx_k)|/|ξ|. The exact
     /// fraction depends on |ξ_k| alone and not on the order of the axes, to the last bit: compute
@@ -51,7 +51,7 @@ impl Quadrature {
         }
     }
 
-    /// The distance [m] beyond which no neighbour counts: δ, δ plus half the longest edge, or δ
+    /// The distance in metres beyond which no neighbour counts: δ, δ plus half the longest edge, or δ
     /// plus half the diagonal of the cell.
     pub fn reach<const D: usize>(&self, cell: &SVector<f64, D>, horizon: f64) -> f64 {
         match self {
