@@ -415,7 +415,7 @@ where
     }
     /// Node constants and states of the nodes that lost a bond.
     fn follow_damage(&mut self) -> Result<()> {
-        let Some(mut bits) = self.bits.take() else { return Ok(()) };
+        let Some(bits) = self.bits.take() else { return Ok(()) };
         let mut result = Ok(());
         if M::FOLLOWS_DAMAGE {
             let Self { family, material, table, node_const, .. } = self;

@@ -17,6 +17,47 @@ pub enum Error {
         /// The admissible range.
         need: &'static str,
     },
+    /// No cell centre lies in the shape.
+    #[error("no cell centre lies in the shape with a spacing of {spacing:?} m: use a finer one")]
+    EmptyGrid {
+        /// Edges of a cell in metres.
+        spacing: Vec<f64>,
+    },
+    /// A node set selects nothing.
+    #[error("node set '{name}' has no nodes: check its predicate against the grid's extent")]
+    EmptySet {
+        /// Name of the set.
+        name: String,
+    },
+    /// There is no node set of this name.
+    #[error("there is no node set '{name}'; there are {known:?}")]
+    UnknownSet {
+        /// The name asked for.
+        name: String,
+        /// The names there are.
+        known: Vec<String>,
+    },
+    /// Two nodes are at the same place.
+    #[error("nodes {} and {} are both at {position:?} m: remove one", nodes[0], nodes[1])]
+    CoincidentNodes {
+        /// The nodes.
+        nodes: [usize; 2],
+        /// Where, in metres.
+        position: Vec<f64>,
+    },
+    /// A crack passes through a node.
+    #[error(
+        "the crack passes through node {node} at {position:?} m, so its side would be chance: shift \
+         the crack by {shift:?} m to pass between nodes"
+    )]
+    CrackThroughNode {
+        /// The node.
+        node: usize,
+        /// Its position in metres.
+        position: Vec<f64>,
+        /// A shift that avoids it, in metres.
+        shift: Vec<f64>,
+    },
     /// A node has no neighbour within its horizon.
     #[error(
         "node {node} at {position:?} m has no neighbour within its horizon of {horizon:e} m: \

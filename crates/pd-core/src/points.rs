@@ -1,12 +1,100 @@
-//! stub
+//! Point clouds: positions and volumes.
+
+use crate::grid::{Grid, NodeSet};
+use crate::{Error, Result};
 use nalgebra::SVector;
+
+/// Nodes at given places with given volumes (areas in 2D, per unit thickness).
 #[derive(Debug, Clone)]
-pub struct Points<const D: usize> { p: Vec<SVector<f64, D>>, v: Vec<f64>, s: f64 }
+pub struct Points<const D: usize> {
+    positions: Vec<SVector<f64, D>>,
+    volumes: Vec<f64>,
+    spacing: f64,
+}
+
 impl<const D: usize> Points<D> {
-    pub fn new(p: Vec<SVector<f64, D>>, v: Vec<f64>, s: f64) -> Self { Self { p, v, s } }
-    pub fn len(&self) -> usize { self.p.len() }
-    pub fn position(&self, i: usize) -> &SVector<f64, D> { &self.p[i] }
-    pub fn volume(&self, i: usize) -> f64 { self.v[i] }
-    pub fn spacing(&self) -> f64 { self.s }
-    pub fn bytes(&self) -> usize { 0 }
+    /// From positions in metres and volumes in m^D. The unit of length Δx is the D-th root of the
+    /// median volume; see [`with_spacing`](Self::with_spacing).
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for no nodes, lists of different length, a coordinate that is not
+    /// finite or a volume that is not positive; [`Error::CoincidentNodes`].
+    pub fn new(positions: Vec<SVector<f64, D>>, volumes: Vec<f64>) -> Result<Self> {
+        let n = positions.len();
+        Error::check(n > 0, "number of nodes", 0.0, "at least 1")?;
+        Error::check(
+            volumes.len() == n,
+            "number of volumes",
+            volumes.len() as f64,
+            "the number of positions",
+        )?;
+        for x in positions.iter().flat_map(|x| x.iter()) {
+            Error::check(x.is_finite(), "coordinate of a node [m]", *x, "finite")?;
+        }
+        for &v in &volumes {
+            Error::positive("volume of a node [m^D]", v)?;
+        }
+        let mut order: Vec<usize> = (0..n).collect();
+        let key = |i: usize| positions[i];
+        order.sort_by(|&a, &b| {
+            let by_axis = (0..D).map(|d| key(a)[d].total_cmp(&key(b)[d]));
+            by_axis.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then)
+        });
+        if let Some(pair) = order.windows(2).find(|w| positions[w[0]] == positions[w[1]]) {
+            return Err(Error::CoincidentNodes {
+                nodes: [pair[0].min(pair[1]), pair[0].max(pair[1])],
+                position: positions[pair[0]].iter().copied().collect(),
+            });
+        }
+        let mut sorted = volumes.clone();
+        sorted.sort_by(f64::total_cmp);
+        let spacing = sorted[n / 2].powf(1.0 / D as f64);
+        Ok(Self { positions, volumes, spacing })
+    }
+    /// The nodes of a grid.
+    pub fn from_grid(grid: &Grid<D>) -> Self {
+        Self {
+            positions: grid.positions().collect(),
+            volumes: vec![grid.cell_volume(); grid.len()],
+            spacing: grid.spacing()[0],
+        }
+    }
+    /// With this unit of length Δx in metres: horizon ratios refer to it.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] unless positive.
+    pub fn with_spacing(mut self, spacing: f64) -> Result<Self> {
+        self.spacing = Error::positive("spacing Δx [m]", spacing)?;
+        Ok(self)
+    }
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+    /// A cloud has at least one node.
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+    /// Position of a node in metres.
+    pub fn position(&self, node: usize) -> &SVector<f64, D> {
+        &self.positions[node]
+    }
+    /// Volume of a node in m^D.
+    pub fn volume(&self, node: usize) -> f64 {
+        self.volumes[node]
+    }
+    /// The unit of length Δx in metres.
+    pub fn spacing(&self) -> f64 {
+        self.spacing
+    }
+    /// The nodes for which a predicate holds.
+    pub fn select(&self, inside: impl Fn(&SVector<f64, D>) -> bool) -> NodeSet {
+        let chosen = (0..self.len()).filter(|&i| inside(&self.positions[i]));
+        NodeSet::from_nodes(chosen, self.len()).unwrap_or_default()
+    }
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.positions.capacity() * size_of::<SVector<f64, D>>()
+            + self.volumes.capacity() * size_of::<f64>()
+    }
 }
