@@ -163,10 +163,11 @@ impl<T: Real, const D: usize, const S: usize> ScalarState<T, D> for PolynomialMi
     fn bond_const(&self, xi: &SVector<f64, D>, scale: Scale) -> PolynomialBond<T, S> {
         let (length, n) = (xi.norm(), xi.normalize());
         let omega = self.influence.weight(length / scale.horizon);
+        let products: SVector<f64, S> = shear_products(&n);
         PolynomialBond {
             omega: T::of(omega),
             stiffness: T::of(omega * self.micromodulus(&n)),
-            shear: (shear_products(&n) * (omega * length)).map(T::of),
+            shear: (products * (omega * length)).map(T::of),
         }
     }
     fn node_const(

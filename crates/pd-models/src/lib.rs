@@ -1,1 +1,26 @@
-//! TODO
+//! Peridynamic material models: bond-based, ordinary state-based (isotropic and with any
+//! stiffness), correspondence.
+pub mod anisotropic;
+pub mod bond_based;
+pub mod correspondence;
+pub mod elasticity;
+pub mod error;
+pub mod kinematics;
+pub mod linear_solid;
+pub mod ordinary;
+pub mod regions;
+
+pub use anisotropic::{PolynomialMicromoduli, PositiveSplit};
+pub use bond_based::{BondBased, BondLaw, Pmb, PmbOnFamily};
+pub use correspondence::{
+    Constitutive, Correspondence, Hyperelastic, LinearElastic, NeoHookean, NoControl,
+    SaintVenantKirchhoff, SillingControl, WanControl, ZeroEnergyControl,
+};
+pub use elasticity::{
+    Isotropic, Lamina, Orthotropic, PlaneMode, Stiffness, TransverselyIsotropic,
+};
+pub use error::{Error, Result};
+pub use kinematics::{Finite, Kinematics, Linearised};
+pub use linear_solid::{LinearSolid, MadenciOterkus};
+pub use ordinary::{Ordinary, ScalarState};
+pub use regions::Regions;
