@@ -31,6 +31,15 @@ pub struct TestedBond<'a, T: Real, const D: usize, M: Material<T, D>, C, V> {
     pub values: [&'a V; 2],
 }
 
+impl<'a, T: Real, const D: usize, M: Material<T, D>, C, V> TestedBond<'a, T, D, M, C, V> {
+    /// The same bond with other constants, for criteria that wrap another.
+    #[inline(always)]
+    pub fn with_constants<'b, N>(&'b self, constants: [&'b N; 2]) -> TestedBond<'b, T, D, M, N, V> {
+        let Self { material, bond, ends, values, .. } = *self;
+        TestedBond { material, bond, ends, constants, values }
+    }
+}
+
 /// A damage criterion: a bond breaks, for good, when its failure index exceeds 1.
 ///
 /// ```text
