@@ -181,8 +181,7 @@ where
         let mut criterion_const = Field::zeros(if P::ACTIVE { sites } else { 0 });
         if P::NodeConst::LEN > 0 {
             for node in 0..nodes {
-                criterion_const
-                    .set(family.site(node), policy.node_const(node, family.scale(node)));
+                criterion_const.set(family.site(node), policy.node_const(node, family.scale(node)));
             }
         }
         let unit2 = family.unit().powi(2);
@@ -241,11 +240,8 @@ where
         let Self { family, material, table, bits, policy, .. } = self;
         // Bonds that have left the family count nowhere; other cut bonds count like bonds that
         // break later: only for a material that follows damage.
-        let live = if M::FOLLOWS_DAMAGE || policy.cracks().leave_family {
-            bits.as_ref()
-        } else {
-            None
-        };
+        let live =
+            if M::FOLLOWS_DAMAGE || policy.cracks().leave_family { bits.as_ref() } else { None };
         let constants: Result<Vec<M::NodeConst>> = (0..family.nodes())
             .into_par_iter()
             .map_init(Vec::new, |members, node| {
@@ -355,11 +351,7 @@ where
         if reference > 0.0 { 1.0 - intact / reference } else { 1.0 }
     }
     /// Visits the neighbours of a node, broken ones too.
-    pub fn neighbours(
-        &self,
-        node: usize,
-        mut visit: impl FnMut(crate::family::Neighbour<D>),
-    ) {
+    pub fn neighbours(&self, node: usize, mut visit: impl FnMut(crate::family::Neighbour<D>)) {
         self.family.neighbours(node, self.bits.as_ref(), &mut visit);
     }
     /// Bytes held per part: what a scene does not need is 0.
@@ -446,8 +438,7 @@ where
         let bits = bits.as_mut().ok_or(Error::NoBits)?;
         let positions = (0..family.nodes()).map(|node| family.position(node));
         crate::crack::check_clear(crack, positions, family.unit())?;
-        let count = family
-            .cut(bits, &|a, b| crack.cuts(&family.position(a), &family.position(b)));
+        let count = family.cut(bits, &|a, b| crack.cuts(&family.position(a), &family.position(b)));
         self.follow_damage()?;
         Ok(count)
     }
@@ -604,8 +595,11 @@ pub trait Dynamics<T: Real, const D: usize> {
     ///
     /// # Errors
     /// [`Error::Inverted`], and what the material refuses about a damaged family.
-    fn evaluate_and_break(&mut self, step: usize, events: &mut dyn BreakEvents<Self>)
-    -> Result<Tally>;
+    fn evaluate_and_break(
+        &mut self,
+        step: usize,
+        events: &mut dyn BreakEvents<Self>,
+    ) -> Result<Tally>;
     /// True if bonds can break.
     fn can_break(&self) -> bool;
     /// Acceleration of force density 1 at a site, 1/(ρ Δx²).

@@ -111,8 +111,7 @@ impl<T: Real, const D: usize> Cloud<T, D> {
         };
         let scaled: Vec<SVector<f64, D>> = (0..n).map(|i| points.position(i) / unit).collect();
         let rows = neighbours(&scaled, |i| {
-            cloud.quadrature.reach(&cloud.cell(i), cloud.horizon(i))
-                .max(cloud.horizon(i))
+            cloud.quadrature.reach(&cloud.cell(i), cloud.horizon(i)).max(cloud.horizon(i))
         });
         let xi = |i: usize, j: usize| {
             SVector::from_fn(|d, _| {
@@ -223,8 +222,7 @@ fn sweep_range<T, const D: usize, Kn, I>(
             }
             let j = entry.neighbour as usize;
             let bond = Bond { xi: entry.xi, eta: job.u.get(j) - u };
-            let pair =
-                Pair { constants: job.table.ends(begin + at), volumes: entry.volumes };
+            let pair = Pair { constants: job.table.ends(begin + at), volumes: entry.volumes };
             job.kernel.add(&mut sum, &bond, pair, [&own, &job.input.load(j)]);
         }
         let previous = <Kn::Out as Record<T>>::read(&out, node - first);
@@ -311,9 +309,7 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         CloudBits { bytes: vec![0xff; total], row, marks }
     }
     fn bits_bytes(bits: &CloudBits) -> usize {
-        bits.bytes.capacity()
-            + bits.row.capacity() * size_of::<usize>()
-            + bits.marks.capacity()
+        bits.bytes.capacity() + bits.row.capacity() * size_of::<usize>() + bits.marks.capacity()
     }
     fn cut(&self, bits: &mut CloudBits, cuts: &(dyn Fn(usize, usize) -> bool + Sync)) -> usize {
         let mut count = 0;

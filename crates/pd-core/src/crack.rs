@@ -13,6 +13,10 @@ pub trait CrackSurface<const D: usize>: Send + Sync {
     fn normal(&self) -> SVector<f64, D>;
 }
 
+/// A bond that passes a tip or rim within this share of the crack's size touches it, and what
+/// touches is cut: symmetric cracks on symmetric grids cut symmetric bonds.
+const TOUCH: f64 = 1e-9;
+
 /// A straight crack in 2D.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
@@ -57,7 +61,8 @@ fn segments_meet(p: &Vector2<f64>, q: &Vector2<f64>, a: &Vector2<f64>, b: &Vecto
 
 impl CrackSurface<2> for Segment {
     fn cuts(&self, a: &Vector2<f64>, b: &Vector2<f64>) -> bool {
-        segments_meet(a, b, &self.a, &self.b)
+        let reach = (self.b - self.a) * TOUCH;
+        segments_meet(a, b, &(self.a - reach), &(self.b + reach))
     }
     fn distance(&self, x: &Vector2<f64>) -> f64 {
         distance_to_segment(x, &self.a, &self.b)
@@ -95,9 +100,8 @@ impl Polygon {
         let points: Vec<Vector3<f64>> = vertices.iter().map(|&v| v.into()).collect();
         let origin = points[0];
         // Twice the area vector (Newell).
-        let area: Vector3<f64> = (1..count - 1)
-            .map(|i| (points[i] - origin).cross(&(points[i + 1] - origin)))
-            .sum();
+        let area: Vector3<f64> =
+            (1..count - 1).map(|i| (points[i] - origin).cross(&(points[i + 1] - origin))).sum();
         let size = points.iter().map(|p| (p - origin).norm()).fold(0.0, f64::max);
         Error::positive("area of a crack [m²]", area.norm())?;
         let normal = area.normalize();
@@ -107,8 +111,9 @@ impl Polygon {
         }
         let first = (points[1] - origin).normalize();
         let axes = [first, normal.cross(&first)];
-        let vertices =
-            points.iter().map(|p| Vector2::new((p - origin).dot(&axes[0]), (p - origin).dot(&axes[1])));
+        let vertices = points
+            .iter()
+            .map(|p| Vector2::new((p - origin).dot(&axes[0]), (p - origin).dot(&axes[1])));
         Ok(Self { origin, axes, normal, vertices: vertices.collect() })
     }
     /// A parallelogram from a corner and two edges, in metres.
@@ -132,7 +137,7 @@ impl Polygon {
         let mut inside = false;
         for (a, b) in self.edges() {
             let edge = b - a;
-            if distance_to_segment(p, a, b) <= 1e-12 * edge.norm() {
+            if distance_to_segment(p, a, b) <= TOUCH * edge.norm() {
                 return true;
             }
             if (a.y > p.y) != (b.y > p.y) && p.x < a.x + edge.x * (p.y - a.y) / edge.y {

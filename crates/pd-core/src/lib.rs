@@ -31,9 +31,7 @@ pub use body::{Body, Dynamics, Memory};
 pub use bond::{Bond, End, Member, Neighbourhood, Scale};
 pub use cloud::Cloud;
 pub use crack::CrackSurface;
-pub use damage::{
-    Breaking, DamageCriterion, DamagePolicy, NoDamage, Precracked, TestedBond,
-};
+pub use damage::{Breaking, DamageCriterion, DamagePolicy, NoDamage, Precracked, TestedBond};
 pub use error::{Error, Result};
 pub use family::{Family, Horizon, Neighbour, Tally};
 pub use grid::{Grid, NodeSet};

@@ -155,8 +155,7 @@ impl Bound {
                 Kind::Displacement => (load.value.at(t + dt) / unit - u) / dt,
                 _ => load.value.at(t + 0.5 * dt) / unit,
             };
-            let constant =
-                if load.kind == Kind::Velocity { Some(T::of(speed(0.0))) } else { None };
+            let constant = if load.kind == Kind::Velocity { Some(T::of(speed(0.0))) } else { None };
             for s in &load.sites {
                 let u = body.u().get(s.site)[load.axis].to_f64();
                 let mut v = body.v().get(s.site);

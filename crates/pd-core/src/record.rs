@@ -129,10 +129,7 @@ impl<T: Real> Record<T> for () {
     #[inline(always)]
     fn planes_mut(_: &mut [T], _: usize) -> Self::PlanesMut<'_> {}
     #[inline(always)]
-    fn split<'a>(
-        _: Self::PlanesMut<'a>,
-        _: usize,
-    ) -> (Self::PlanesMut<'a>, Self::PlanesMut<'a>) {
+    fn split<'a>(_: Self::PlanesMut<'a>, _: usize) -> (Self::PlanesMut<'a>, Self::PlanesMut<'a>) {
         ((), ())
     }
     #[inline(always)]

@@ -303,8 +303,8 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
         if let Some(account) = &mut self.account {
             let power = self.loads.power(self.body, self.time);
             let inertia = self.loads.support_kinetic_energy(self.body);
-            account.energies.external += 0.5 * (account.power + power) * self.dt
-                + (inertia - account.support_kinetic);
+            account.energies.external +=
+                0.5 * (account.power + power) * self.dt + (inertia - account.support_kinetic);
             account.power = power;
             account.support_kinetic = inertia;
         }
@@ -386,4 +386,3 @@ pub fn reaction<T: Real, const D: usize>(
         sum - f * body.volume(node)
     })
 }
-

@@ -45,10 +45,7 @@ pub struct LineFit {
 
 impl<const D: usize> CrackPath<D> {
     /// From positions and the damage each node has gained beyond its pre-crack.
-    pub fn new(
-        spacing: f64,
-        nodes: impl Iterator<Item = (usize, SVector<f64, D>, f64)>,
-    ) -> Self {
+    pub fn new(spacing: f64, nodes: impl Iterator<Item = (usize, SVector<f64, D>, f64)>) -> Self {
         let nodes: Vec<Separated<D>> = nodes
             .filter(|n| n.2 >= SEPARATED)
             .map(|(node, position, damage)| Separated { node, position, damage })
@@ -139,7 +136,8 @@ pub fn fit_line<const D: usize>(nodes: &[Separated<D>]) -> Option<LineFit> {
     }
     let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
     let (sin, cos) = angle.sin_cos();
-    let along = |p: &Separated<D>| (p.position[0] - mean[0]) * cos + (p.position[1] - mean[1]) * sin;
+    let along =
+        |p: &Separated<D>| (p.position[0] - mean[0]) * cos + (p.position[1] - mean[1]) * sin;
     let (low, high) = nodes
         .iter()
         .map(along)

@@ -178,9 +178,8 @@ impl TsaiHill3 {
     #[inline(always)]
     pub fn value<T: Real>(&self, s: &SMatrix<T, 3, 3>) -> T {
         let f: SVector<T, 3> = self.fibre.map(T::of);
-        let traction = SVector::<T, 3>::from_fn(|i, _| {
-            s[(i, 0)] * f[0] + s[(i, 1)] * f[1] + s[(i, 2)] * f[2]
-        });
+        let traction =
+            SVector::<T, 3>::from_fn(|i, _| s[(i, 0)] * f[0] + s[(i, 1)] * f[1] + s[(i, 2)] * f[2]);
         let along = traction.dot(&f);
         let shear2 = traction.dot(&traction) - along * along;
         // Invariants of the stress in the plane normal to f: σ2 + σ3 and σ2² + σ3² + 2τ23².

@@ -127,7 +127,8 @@ impl<const D: usize, const S: usize> PolynomialMicromoduli<D, S> {
     }
     /// k⟨n⟩ in Pa for a direction n.
     pub fn micromodulus(&self, n: &SVector<f64, D>) -> f64 {
-        let monomial = |powers: &[i32; D]| -> f64 { (0..D).map(|d| n[d].powi(powers[d])).product() };
+        let monomial =
+            |powers: &[i32; D]| -> f64 { (0..D).map(|d| n[d].powi(powers[d])).product() };
         self.k.iter().map(|(powers, k)| k * monomial(powers)).sum()
     }
 }
@@ -147,8 +148,7 @@ pub struct PolynomialBond<T, const S: usize> {
     shear: SVector<T, S>,
 }
 
-impl<T: Real, const D: usize, const S: usize> ScalarState<T, D> for PolynomialMicromoduli<D, S>
-{
+impl<T: Real, const D: usize, const S: usize> ScalarState<T, D> for PolynomialMicromoduli<D, S> {
     type BondConst = PolynomialBond<T, S>;
     /// 1/m.
     type NodeConst = T;
@@ -296,8 +296,7 @@ pub struct SplitBond<T, const V: usize> {
     strain: SVector<T, V>,
 }
 
-impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSplit<D, V>
-{
+impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSplit<D, V> {
     type BondConst = SplitBond<T, V>;
     /// k₀/m and 𝓜⁻¹ L 𝓜⁻¹.
     type NodeConst = (T, SMatrix<T, V, V>);
@@ -323,13 +322,13 @@ impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSpli
         let mut moment = SMatrix::<f64, V, V>::zeros();
         for member in family.members {
             let v: SVector<f64, V> = voigt_direction(&member.xi.normalize());
-            let weight =
-                member.bond.1.omega.to_f64() * member.xi.norm_squared() * member.volume;
+            let weight = member.bond.1.omega.to_f64() * member.xi.norm_squared() * member.volume;
             m += weight;
             moment += v * v.transpose() * weight;
         }
         weighted_volume(m, family.node, true)?;
-        let scaled = self.inverse_factor * embed(&(moment / m), 0.0) * self.inverse_factor.transpose();
+        let scaled =
+            self.inverse_factor * embed(&(moment / m), 0.0) * self.inverse_factor.transpose();
         let values = scaled.symmetric_eigenvalues();
         let k0 = self.kappa / values.max();
         let own = embed(&(moment / m), 1.0).symmetric_eigenvalues();

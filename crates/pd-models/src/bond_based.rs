@@ -182,11 +182,7 @@ impl<T: Real, const D: usize, L: BondLaw<T, D>> Material<T, D> for BondBased<L> 
         self.0.bond_const(xi, scale)
     }
     #[inline(always)]
-    fn force_state(
-        &self,
-        bond: &Bond<T, D>,
-        end: End<'_, T, L::Const, (), ()>,
-    ) -> SVector<T, D> {
+    fn force_state(&self, bond: &Bond<T, D>, end: End<'_, T, L::Const, (), ()>) -> SVector<T, D> {
         let y = bond.deformed();
         y * (self.0.force(bond, end.bond) / y.dot(&y).sqrt())
     }

@@ -48,8 +48,7 @@ fn determinant<T: Real, const D: usize>(a: &SMatrix<T, D, D>) -> T {
         1 => a[0],
         2 => a[(0, 0)] * a[(1, 1)] - a[(0, 1)] * a[(1, 0)],
         _ => {
-            let minor =
-                |i: usize, j: usize| a[(1, i)] * a[(2, j)] - a[(1, j)] * a[(2, i)];
+            let minor = |i: usize, j: usize| a[(1, i)] * a[(2, j)] - a[(1, j)] * a[(2, i)];
             a[(0, 0)] * minor(1, 2) - a[(0, 1)] * minor(0, 2) + a[(0, 2)] * minor(0, 1)
         }
     }
@@ -278,7 +277,8 @@ impl<L> Correspondence<L> {
     /// # Errors
     /// A density that is not positive.
     pub fn new(law: L, density: f64, influence: impl Influence + 'static) -> Result<Self> {
-        let density = pd_core::Error::positive("density ρ [kg/m³]", density).map_err(Error::from)?;
+        let density =
+            pd_core::Error::positive("density ρ [kg/m³]", density).map_err(Error::from)?;
         let (influence, shape) = (Arc::new(influence), ShapePolicy::default());
         Ok(Self { law, control: NoControl, density, influence, shape })
     }

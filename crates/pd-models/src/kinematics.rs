@@ -1,8 +1,8 @@
 //! Kinematics of a bond: finite (the papers' nonlinear form) or linearised.
 
+use nalgebra::SVector;
 use pd_core::Real;
 use pd_core::bond::Bond;
-use nalgebra::SVector;
 
 /// |ξ| and 1/|ξ| in units of Δx.
 #[derive(Debug, Clone, Copy)]

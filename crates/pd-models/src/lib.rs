@@ -16,9 +16,7 @@ pub use correspondence::{
     Constitutive, Correspondence, Hyperelastic, LinearElastic, NeoHookean, NoControl,
     SaintVenantKirchhoff, SillingControl, WanControl, ZeroEnergyControl,
 };
-pub use elasticity::{
-    Isotropic, Lamina, Orthotropic, PlaneMode, Stiffness, TransverselyIsotropic,
-};
+pub use elasticity::{Isotropic, Lamina, Orthotropic, PlaneMode, Stiffness, TransverselyIsotropic};
 pub use error::{Error, Result};
 pub use kinematics::{Finite, Kinematics, Linearised};
 pub use linear_solid::{LinearSolid, MadenciOterkus};

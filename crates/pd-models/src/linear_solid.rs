@@ -1,9 +1,9 @@
 //! The linear peridynamic solid (LPS): ordinary, isotropic, any Poisson's ratio.
 
+use crate::Result;
 use crate::elasticity::{Isotropic, PlaneMode};
 use crate::kinematics::BondLength;
 use crate::ordinary::ScalarState;
-use crate::Result;
 use nalgebra::SVector;
 use pd_core::bond::{Neighbourhood, Scale};
 use pd_core::influence::Influence;
@@ -202,4 +202,3 @@ impl<T: Real, const D: usize> ScalarState<T, D> for MadenciOterkus {
         k.0 * *state + k.1 * e
     }
 }
-

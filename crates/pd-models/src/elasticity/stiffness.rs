@@ -17,7 +17,13 @@ pub struct Stiffness<const D: usize> {
 
 /// Voigt index of a pair of axes.
 pub(crate) fn voigt_index(dimension: usize, i: usize, j: usize) -> usize {
-    if i == j { i } else if dimension == 2 { 2 } else { 6 - i - j }
+    if i == j {
+        i
+    } else if dimension == 2 {
+        2
+    } else {
+        6 - i - j
+    }
 }
 
 /// Number of Voigt components.
