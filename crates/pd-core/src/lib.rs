@@ -25,15 +25,14 @@ pub mod region;
 pub mod run;
 pub mod search;
 pub mod shape;
+pub mod symbol;
 pub mod time_step;
 
 pub use body::{Body, Dynamics, Memory};
 pub use bond::{Bond, End, Member, Neighbourhood, Scale};
 pub use cloud::Cloud;
 pub use crack::CrackSurface;
-pub use damage::{
-    Breaking, DamageCriterion, DamagePolicy, NoDamage, Precracked, TestedBond,
-};
+pub use damage::{Breaking, DamageCriterion, DamagePolicy, NoDamage, Precracked, TestedBond};
 pub use error::{Error, Result};
 pub use family::{Family, Horizon, Neighbour, Tally};
 pub use grid::{Grid, NodeSet};
@@ -48,3 +47,4 @@ pub use real::Real;
 pub use record::{Field, Record};
 pub use run::{Energies, Flow, Observer, Run, TimeStep, View};
 pub use search::{Rows, neighbours};
+pub use symbol::Symbol;
