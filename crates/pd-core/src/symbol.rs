@@ -24,6 +24,10 @@ use std::fmt;
 const AMPLITUDE: f64 = 1e-6;
 /// Violation of the rules of [`Symbol::of`] accepted, relative to the largest force constant.
 const TOLERANCE: f64 = 1e-7;
+/// Local minima of the samples that are searched further, lowest first.
+const STARTS: usize = 16;
+/// Longest pattern search.
+const MOVES: usize = 200;
 /// An eigenvalue within this fraction of the largest one is zero.
 const ZERO: f64 = 1e-9;
 
@@ -127,8 +131,8 @@ impl<const D: usize> Symbol<D> {
     ///
     /// # Errors
     /// What [`Lattice::new`], [`Body::new`] and the material refuse, and [`Error::ForceConstants`]
-    /// for forces that do not balance (Σ K(x) = 0) or do not derive from an energy that treats ±ξ
-    /// alike (K(x) = K(−x) = K(x)ᵀ).
+    /// for forces that do not balance (Σ K(x) = 0) or do not derive from an energy that is alike at
+    /// all nodes and for ±ξ (K(x) = K(−x) = K(x)ᵀ).
     pub fn of<M: Material<f64, D>>(
         material: &M,
         spacing: f64,
@@ -254,8 +258,8 @@ impl<const D: usize> Symbol<D> {
     }
 
     /// Softest and stiffest wave of the Brillouin zone: `samples` wave vectors per axis (made
-    /// even, so that zone faces and corners are among them), and a pattern search from every
-    /// sample that is softer (stiffer) than those beside it.
+    /// even, so that zone faces and corners are among them), and a pattern search from the best
+    /// samples that are softer (stiffer) than those beside them.
     ///
     /// Near k = 0 every ω² goes to 0 like |k|², so the softest wave is sought outside the ball
     /// |k|Δx < 2π/`samples`: in a material without weak short waves it is the longest one there.
@@ -286,10 +290,12 @@ impl<const D: usize> Symbol<D> {
             let sampled = |i: usize| {
                 if end == 0 && i == 0 { f64::INFINITY } else { value(i, end) }
             };
-            let starts: Vec<usize> = (0..total)
+            let mut starts: Vec<usize> = (0..total)
                 .filter(|&i| half[i].is_some() && sampled(i).is_finite())
                 .filter(|&i| zone.beside::<D>(i).all(|j| sampled(i) <= sampled(j)))
                 .collect();
+            starts.sort_by(|&a, &b| sampled(a).total_cmp(&sampled(b)));
+            starts.truncate(STARTS);
             let (_, phases) = starts
                 .into_par_iter()
                 .map(|i| descend(&objective, zone.phases(i), zone.step()))
@@ -379,7 +385,7 @@ fn check<const D: usize>(k: &[SMatrix<f64, D, D>]) -> Result<()> {
         .fold(0.0, f64::max);
     for (rule, violation) in [
         ("Σ K(x) = 0: the pair forces of the two ends must be opposite", sum.amax()),
-        ("K(x) = K(−x) = K(x)ᵀ: forces must derive from an energy, alike for ±ξ", uneven),
+        ("K(x) = K(−x) = K(x)ᵀ: an energy must be behind, alike at all nodes and for ±ξ", uneven),
     ] {
         let relative = violation / largest;
         if relative.is_nan() || relative > TOLERANCE {
@@ -444,7 +450,10 @@ fn descend<const D: usize>(
 ) -> (f64, SVector<f64, D>) {
     let mut best = (objective(&start), start);
     let mut length = 0.5 * step;
-    while length > 1e-5 * step {
+    for _ in 0..MOVES {
+        if length < 1e-5 * step {
+            break;
+        }
         let moved = (0..2 * D)
             .map(|n| {
                 let mut x = best.1;

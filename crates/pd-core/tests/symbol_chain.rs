@@ -2,7 +2,7 @@
 //! materials that are no elastic bulk lattice.
 
 use nalgebra::SVector;
-use pd_core::bond::{Bond, End, Scale};
+use pd_core::bond::{Bond, End, Neighbourhood, Scale};
 use pd_core::symbol::Stability;
 use pd_core::{Error, Horizon, Material, Quadrature, Symbol};
 use std::f64::consts::PI;
@@ -10,22 +10,25 @@ use std::f64::consts::PI;
 const DENSITY: f64 = 2700.0;
 const DX: f64 = 0.01;
 
-/// T = a η + b ξ |η|², with a in Pa/Δx², and what each end adds to spoil it.
+/// T = a η + b ξ |η|², with a in Pa/Δx², and what can spoil it.
 #[derive(Clone, Copy)]
 struct Springs {
     a: f64,
     b: f64,
     /// Skews T: no energy (in 2D).
     skew: f64,
-    /// Force on one end only.
+    /// Force on the end with the smaller x only.
     ghost: f64,
+    /// Growth of a from node to node.
+    growth: f64,
 }
 
-const PLAIN: Springs = Springs { a: 7e9, b: 0.0, skew: 0.0, ghost: 0.0 };
+const PLAIN: Springs = Springs { a: 7e9, b: 0.0, skew: 0.0, ghost: 0.0, growth: 0.0 };
 
 impl<const D: usize> Material<f64, D> for Springs {
     type BondConst = ();
-    type NodeConst = ();
+    /// Factor of the force.
+    type NodeConst = f64;
     type FamilySum = ();
     type NodeState = ();
 
@@ -33,19 +36,23 @@ impl<const D: usize> Material<f64, D> for Springs {
         DENSITY
     }
     fn bond_const(&self, _: &SVector<f64, D>, _: Scale) {}
-    fn force_state(&self, bond: &Bond<f64, D>, _: End<'_, f64, (), (), ()>) -> SVector<f64, D> {
+    fn node_const(&self, family: &Neighbourhood<'_, (), D>) -> Result<f64, Error> {
+        Ok(1.0 + self.growth * family.node as f64)
+    }
+    fn force_state(&self, bond: &Bond<f64, D>, end: End<'_, f64, (), f64, ()>) -> SVector<f64, D> {
         let mut t = bond.eta * self.a + bond.xi * (self.b * bond.eta.norm_squared());
         t[0] += self.skew * bond.eta[D - 1];
-        t
+        t * *end.node
     }
     fn pair_force(
         &self,
         bond: &Bond<f64, D>,
-        ends: [End<'_, f64, (), (), ()>; 2],
+        ends: [End<'_, f64, (), f64, ()>; 2],
     ) -> SVector<f64, D> {
         let both = self.force_state(bond, ends[0]) * ends[0].volume
             - self.force_state(&bond.reversed(), ends[1]) * ends[1].volume;
-        both + bond.eta.abs() * self.ghost
+        let ghost = if bond.xi[0] > 0.0 { self.ghost } else { 0.0 };
+        both + bond.eta * (ghost * *ends[0].node)
     }
 }
 
@@ -90,7 +97,7 @@ fn plane(springs: &Springs) -> Result<Symbol<2>, Error> {
 }
 
 #[test]
-fn forces_without_energy_or_balance_are_refused() {
+fn what_is_no_elastic_bulk_lattice_is_refused() {
     plane(&PLAIN).unwrap();
     let rule_of = |springs: Springs| match plane(&springs) {
         Err(Error::ForceConstants { rule, relative }) => {
@@ -99,8 +106,17 @@ fn forces_without_energy_or_balance_are_refused() {
         }
         other => panic!("{other:?}"),
     };
-    let rule = rule_of(Springs { skew: 1e9, ..PLAIN });
-    assert!(rule.contains("energy"), "{rule}");
+    let spoilt = [
+        Springs { skew: 1e9, ..PLAIN },
+        Springs { ghost: 1e9, ..PLAIN },
+        Springs { growth: 0.01, ..PLAIN },
+    ];
+    for springs in spoilt {
+        let rule = rule_of(springs);
+        assert!(rule.contains("an energy must be behind"), "{rule}");
+    }
+    let rule = rule_of(Springs { ghost: 1e9, growth: 0.01, ..PLAIN });
+    assert!(rule.contains("must be opposite"), "{rule}");
     let nan = plane(&Springs { a: f64::NAN, ..PLAIN });
     assert!(matches!(nan, Err(Error::ForceConstants { .. })), "{nan:?}");
 }

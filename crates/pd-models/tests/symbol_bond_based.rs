@@ -36,12 +36,8 @@ fn closed_form<const D: usize>(
     sum
 }
 
-const QUADRATURES: [Quadrature; 4] = [
-    Quadrature::None,
-    Quadrature::LinearRamp,
-    Quadrature::ExtendedRamp,
-    Quadrature::Exact,
-];
+const QUADRATURES: [Quadrature; 4] =
+    [Quadrature::None, Quadrature::LinearRamp, Quadrature::ExtendedRamp, Quadrature::Exact];
 
 fn quartic(r: f64) -> f64 {
     (1.0 - r * r).powi(2)
@@ -82,9 +78,8 @@ fn matched_on_the_family_the_mean_long_wave_stiffness_is_exact() {
     let pmb = Pmb::solid(&moduli, DENSITY, InfluenceFunction::Constant).unwrap().on_family();
     let symbol: Symbol<3> = symbol(&Ordinary::new(pmb), 3.0, Quadrature::None);
     let k = 1e-5 / DX;
-    let trace: f64 = (0..3)
-        .map(|axis| symbol.stiffness(&(SVector::ith(axis, k))).trace() / (k * k))
-        .sum();
+    let trace: f64 =
+        (0..3).map(|axis| symbol.stiffness(&(SVector::ith(axis, k))).trace() / (k * k)).sum();
     // Σ_axes tr Γ = C_iijj-type sum Σ_j C_ijij = 3(λ + 2μ) + 6μ with λ = μ.
     let exact = 15.0 * moduli.shear();
     assert!((trace / exact - 1.0).abs() < 1e-8, "{trace} {exact}");

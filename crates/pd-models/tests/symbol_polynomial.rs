@@ -103,7 +103,8 @@ fn an_unstable_material_is_refused_with_its_wave() {
     // The search goes below the best of the samples, and the mode is one of the symbol.
     let (sampled, ..) = on_grid(&symbol, 120);
     assert!(mode.eigenvalue < sampled / (DENSITY * common::DX * common::DX));
-    let residual = symbol.matrix(&mode.wave) * mode.polarisation - mode.polarisation * mode.eigenvalue;
+    let residual =
+        symbol.matrix(&mode.wave) * mode.polarisation - mode.polarisation * mode.eigenvalue;
     assert!(residual.norm() < 1e-12 * symbol.max_frequency().powi(2));
     assert!((mode.growth_rate().powi(2) + mode.eigenvalue).abs() < 1e-12 * mode.eigenvalue.abs());
     let text = stability.to_string();

@@ -35,7 +35,10 @@ fn the_largest_eigenvalue_is_two_to_four_times_smaller() {
         for (m, influence) in KERNELS {
             let stiffest = |s: Symbol<2>| s.extremes(40).stiffest.eigenvalue;
             let ratio = stiffest(polynomial(&c, m, influence)) / stiffest(split(&c, m, influence));
-            assert!((1.7..4.5).contains(&ratio), "{name} {degrees}° m = {m} {influence:?}: {ratio}");
+            assert!(
+                (1.7..4.5).contains(&ratio),
+                "{name} {degrees}° m = {m} {influence:?}: {ratio}"
+            );
         }
     }
 }
