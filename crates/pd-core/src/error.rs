@@ -118,6 +118,28 @@ pub enum Error {
         /// The critical step, in seconds.
         critical: f64,
     },
+    /// The force constants of a material are not those of an elastic bulk lattice.
+    #[error("the force constants break {rule} (by {relative:e} of the largest one)")]
+    ForceConstants {
+        /// The rule, and what it asks of the material.
+        rule: &'static str,
+        /// The violation, relative to the largest force constant.
+        relative: f64,
+    },
+    /// A material amplifies plane waves on its lattice.
+    #[error(
+        "this material amplifies the plane wave k = {wave:?} 1/m with growth rate {growth_rate:e} \
+         1/s (ω² = {eigenvalue:e} 1/s²): a run would blow up at any time step. Use a calibration \
+         that is stable for this stiffness, or another horizon or influence function"
+    )]
+    UnstableMaterial {
+        /// ω² in 1/s².
+        eigenvalue: f64,
+        /// Wave vector k in 1/m.
+        wave: Vec<f64>,
+        /// √(−ω²) in 1/s.
+        growth_rate: f64,
+    },
     /// A displacement or velocity is NaN or infinite.
     #[error(
         "displacement or velocity of node {node} is not finite at step {step}, t = {time:e} s: the \

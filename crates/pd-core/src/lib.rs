@@ -25,6 +25,7 @@ pub mod region;
 pub mod run;
 pub mod search;
 pub mod shape;
+pub mod symbol;
 pub mod time_step;
 
 pub use body::{Body, Dynamics, Memory};
@@ -46,3 +47,4 @@ pub use real::Real;
 pub use record::{Field, Record};
 pub use run::{Energies, Flow, Observer, Run, TimeStep, View};
 pub use search::{Rows, neighbours};
+pub use symbol::Symbol;

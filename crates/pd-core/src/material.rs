@@ -143,3 +143,90 @@ pub trait StrainEnergy<T: Real, const D: usize>: Material<T, D> {
         T::zero()
     }
 }
+
+/// A material by reference, so that several bodies and a [`Symbol`](crate::Symbol) can share it.
+impl<T: Real, const D: usize, M: Material<T, D>> Material<T, D> for &M {
+    type BondConst = M::BondConst;
+    type NodeConst = M::NodeConst;
+    type FamilySum = M::FamilySum;
+    type NodeState = M::NodeState;
+    const FOLLOWS_DAMAGE: bool = M::FOLLOWS_DAMAGE;
+    const CAN_FAULT: bool = M::CAN_FAULT;
+
+    fn density(&self, node: usize) -> f64 {
+        (**self).density(node)
+    }
+    fn bond_const(&self, xi: &SVector<f64, D>, scale: Scale) -> Self::BondConst {
+        (**self).bond_const(xi, scale)
+    }
+    fn node_const(
+        &self,
+        family: &Neighbourhood<'_, Self::BondConst, D>,
+    ) -> Result<Self::NodeConst> {
+        (**self).node_const(family)
+    }
+    #[inline(always)]
+    fn add_bond(
+        &self,
+        sum: &mut Self::FamilySum,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, ()>,
+    ) {
+        (**self).add_bond(sum, bond, end);
+    }
+    #[inline(always)]
+    fn node_state(
+        &self,
+        sum: &Self::FamilySum,
+        constants: &Self::NodeConst,
+        previous: &Self::NodeState,
+    ) -> Self::NodeState {
+        (**self).node_state(sum, constants, previous)
+    }
+    #[inline(always)]
+    fn force_state(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
+    ) -> SVector<T, D> {
+        (**self).force_state(bond, end)
+    }
+    #[inline(always)]
+    fn pair_force(
+        &self,
+        bond: &Bond<T, D>,
+        ends: [End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>; 2],
+    ) -> SVector<T, D> {
+        (**self).pair_force(bond, ends)
+    }
+    #[inline(always)]
+    fn detached(&self, constants: &Self::NodeConst) -> bool {
+        (**self).detached(constants)
+    }
+    #[inline(always)]
+    fn fault(&self, state: &Self::NodeState) -> Option<f64> {
+        (**self).fault(state)
+    }
+}
+
+impl<T: Real, const D: usize, M: StressState<T, D>> StressState<T, D> for &M {
+    #[inline(always)]
+    fn stress(&self, constants: &Self::NodeConst, state: &Self::NodeState) -> SMatrix<T, D, D> {
+        (**self).stress(constants, state)
+    }
+}
+
+impl<T: Real, const D: usize, M: StrainEnergy<T, D>> StrainEnergy<T, D> for &M {
+    #[inline(always)]
+    fn node_energy(&self, constants: &Self::NodeConst, state: &Self::NodeState) -> T {
+        (**self).node_energy(constants, state)
+    }
+    #[inline(always)]
+    fn bond_energy(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
+    ) -> T {
+        (**self).bond_energy(bond, end)
+    }
+}
