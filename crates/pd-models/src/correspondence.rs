@@ -236,7 +236,7 @@ impl<const D: usize> WanControl<D> {
     /// # Errors
     /// A strength that is negative.
     pub fn new(stiffness: &Stiffness<D>, strength: f64) -> Result<Self> {
-        Ok(Self { stiffness: stiffness.clone(), strength: checked_strength(strength)? })
+        Ok(Self { stiffness: *stiffness, strength: checked_strength(strength)? })
     }
 }
 
