@@ -5,6 +5,9 @@ pub use pd_damage as damage;
 pub use pd_io as io;
 pub use pd_models as models;
 
+#[cfg(feature = "io")]
+pub mod observe;
+
 /// Everything a simulation needs.
 pub mod prelude {
     pub use nalgebra::{SMatrix, SVector};

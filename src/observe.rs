@@ -1,0 +1,182 @@
+//! Ready-made observers: a progress bar, a CSV history of anything, ParaView series.
+//!
+//! A closure is an observer too; these are the ones most runs want.
+
+use nalgebra::{SMatrix, SVector};
+use pd_core::body::{Body, Dynamics};
+use pd_core::damage::DamagePolicy;
+use pd_core::family::Family;
+use pd_core::material::{Material, StressState};
+use pd_core::run::{Flow, Observer, View};
+use pd_core::{Error, Real, Result};
+use pd_io::{History, Series, Snapshot};
+use std::io::Write as _;
+use std::path::Path;
+use std::time::Instant;
+
+fn output(error: pd_io::Error) -> Error {
+    Error::Other(error.to_string())
+}
+
+/// A progress line on standard error: share done, step, time, broken bonds, time left.
+///
+/// Written by hand: one line that is overwritten needs no terminal library.
+pub struct Progress {
+    label: String,
+    start: Option<Instant>,
+}
+
+impl Progress {
+    /// With a label.
+    pub fn new(label: &str) -> Self {
+        Self { label: label.to_owned(), start: None }
+    }
+
+    fn show<T: Real, const D: usize, B: Dynamics<T, D>>(&mut self, view: &View<'_, B>) -> Flow {
+        let elapsed = self.start.get_or_insert_with(Instant::now).elapsed().as_secs_f64();
+        let done = if view.end > 0.0 { (view.time / view.end).min(1.0) } else { 1.0 };
+        let left = if done > 0.0 { elapsed * (1.0 - done) / done } else { 0.0 };
+        let filled = (done * 24.0) as usize;
+        let bar = format!("{}{}", "#".repeat(filled), ".".repeat(24 - filled));
+        let (percent, step, time) = (100.0 * done, view.step, view.time);
+        let (broken, worst) = (view.body.broken_bonds(), view.body.worst_index());
+        let damage = match (view.body.can_break(), broken) {
+            (false, _) => String::new(),
+            (true, 0) => format!(", no bond broken (worst index {worst:.2})"),
+            (true, n) => format!(", {n} bonds broken"),
+        };
+        // A progress line that cannot be shown is no reason to end a run.
+        let _ = write!(
+            std::io::stderr(),
+            "\r{} [{bar}] {percent:3.0} %  step {step}, t = {time:.3e} s{damage}, {left:.0} s left   {}",
+            self.label,
+            if done >= 1.0 { "\n" } else { "" }
+        );
+        Flow::Continue
+    }
+}
+
+impl<T, const D: usize, F, M, P> Observer<Body<T, D, F, M, P>> for Progress
+where
+    T: Real,
+    F: Family<T, D>,
+    M: Material<T, D>,
+    P: DamagePolicy<T, D, M>,
+{
+    fn observe(&mut self, view: &View<'_, Body<T, D, F, M, P>>) -> Result<Flow> {
+        Ok(self.show(view))
+    }
+}
+
+type Column<'a, B> = Box<dyn Fn(&View<'_, B>) -> f64 + 'a>;
+
+/// A CSV history: the time and columns of your choice.
+///
+/// ```text
+/// Table::create("out/history.csv")?
+///     .column("reaction [N]", |view| reaction(view.body, &grip)[1])
+///     .column("kinetic [J]", |view| kinetic_energy(view.body))
+/// ```
+pub struct Table<'a, B> {
+    path: std::path::PathBuf,
+    history: Option<History>,
+    columns: Vec<(String, Column<'a, B>)>,
+}
+
+impl<'a, B> Table<'a, B> {
+    /// A table in this file.
+    pub fn new(path: impl AsRef<Path>) -> Self {
+        Self { path: path.as_ref().to_owned(), history: None, columns: Vec::new() }
+    }
+    /// Adds a column.
+    pub fn column(mut self, name: &str, value: impl Fn(&View<'_, B>) -> f64 + 'a) -> Self {
+        self.columns.push((name.to_owned(), Box::new(value)));
+        self
+    }
+}
+
+impl<B> Observer<B> for Table<'_, B> {
+    fn observe(&mut self, view: &View<'_, B>) -> Result<Flow> {
+        let history = match &mut self.history {
+            Some(history) => history,
+            empty => {
+                let names = self.columns.iter().map(|(name, _)| name.as_str());
+                let names: Vec<&str> = std::iter::once("time [s]").chain(names).collect();
+                empty.insert(History::create(&self.path, &names).map_err(output)?)
+            }
+        };
+        let values = self.columns.iter().map(|(_, value)| value(view));
+        let row: Vec<f64> = std::iter::once(view.time).chain(values).collect();
+        history.row(&row).map_err(output)?;
+        Ok(Flow::Continue)
+    }
+}
+
+/// Displacement, velocity and damage of a body, ready to be written.
+///
+/// # Errors
+/// Values that are not finite.
+pub fn snapshot<T, const D: usize, F, M, P>(body: &Body<T, D, F, M, P>) -> Result<Snapshot<D>>
+where
+    T: Real,
+    F: Family<T, D>,
+    M: Material<T, D>,
+    P: DamagePolicy<T, D, M>,
+{
+    let nodes = 0..body.nodes();
+    let vectors = |of: &dyn Fn(usize) -> SVector<f64, D>| -> Vec<SVector<f64, D>> {
+        nodes.clone().map(of).collect()
+    };
+    let damage: Vec<f64> = nodes.clone().map(|i| body.damage(i)).collect();
+    Snapshot::new(&vectors(&|i| body.position(i)))
+        .and_then(|s| s.vector("displacement", &vectors(&|i| body.displacement(i))))
+        .and_then(|s| s.vector("velocity", &vectors(&|i| body.velocity(i))))
+        .and_then(|s| s.scalar("damage", &damage))
+        .map_err(output)
+}
+
+/// As [`snapshot`], with the Cauchy stress.
+///
+/// # Errors
+/// As [`snapshot`].
+pub fn snapshot_with_stress<T, const D: usize, F, M, P>(
+    body: &Body<T, D, F, M, P>,
+) -> Result<Snapshot<D>>
+where
+    T: Real,
+    F: Family<T, D>,
+    M: StressState<T, D>,
+    P: DamagePolicy<T, D, M>,
+{
+    let stress: Vec<SMatrix<f64, D, D>> = (0..body.nodes()).map(|i| body.stress(i)).collect();
+    snapshot(body)?.tensor("stress", &stress).map_err(output)
+}
+
+/// Writes a snapshot into a ParaView series at every call.
+pub struct FieldOutput<B, const D: usize> {
+    series: Series,
+    take: fn(&B) -> Result<Snapshot<D>>,
+}
+
+impl<B, const D: usize> FieldOutput<B, D> {
+    /// A series `name.pvd` in `folder` of what `take` gives ([`snapshot`],
+    /// [`snapshot_with_stress`] or your own).
+    ///
+    /// # Errors
+    /// A folder that cannot be written.
+    pub fn create(
+        folder: impl AsRef<Path>,
+        name: &str,
+        take: fn(&B) -> Result<Snapshot<D>>,
+    ) -> Result<Self> {
+        Ok(Self { series: Series::create(folder, name).map_err(output)?, take })
+    }
+}
+
+impl<B, const D: usize> Observer<B> for FieldOutput<B, D> {
+    fn observe(&mut self, view: &View<'_, B>) -> Result<Flow> {
+        let snapshot = (self.take)(view.body)?;
+        self.series.write(view.time, &snapshot).map_err(output)?;
+        Ok(Flow::Continue)
+    }
+}
