@@ -1,6 +1,5 @@
-//! A damage criterion of your own: bonds fail by a strength that weakens with the time under
-//! load is beyond one page, but one that depends on direction is not. Here bonds across a bedding
-//! plane (a rock's weak layers) break at a smaller stretch than bonds along it.
+//! A damage criterion of your own: a layered rock whose bonds across the layers break at a smaller
+//! stretch than bonds along them, so that a crack turns into the layers.
 //!
 //! `cargo run --release --example custom_criterion`
 
@@ -29,7 +28,7 @@ impl<T: Real, M: Material<T, 2>> DamageCriterion<T, 2, M> for Layered {
 }
 
 fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
-    let (size, dx, speed) = (0.1, 1e-3, 5.0);
+    let (size, dx, speed) = (0.1, 1e-3, 1.0);
     let grid = Grid::new(&Cuboid::centred([size, size])?, dx)?;
     let moduli = Isotropic::from_young_poisson(30e9, 1.0 / 3.0)?;
     let mode = PlaneMode::PlaneStress;
@@ -44,16 +43,18 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let family = Lattice::<f64, 2>::new(&grid, Horizon::Cells(3.0), Quadrature::LinearRamp)?;
     let mut body = Body::new(family, Ordinary::new(rock), policy)?;
 
+    // The plate starts with the speed of its ends, so that no wave comes from the grips.
+    body.set_velocity(|x| [0.0, 2.0 * speed * x[1] / size].into());
     let start: Vec<f64> = (0..body.nodes()).map(|i| body.damage(i)).collect();
     let loads = Loads::new().velocity(&top, 1, speed).velocity(&bottom, 1, -speed);
     let mut run = Run::new(&mut body, loads, TimeStep::Safety(0.7))?;
-    run.observe(50, |view: &View<'_, _>| {
+    run.observe(20, |view: &View<'_, _>| {
         let body: &Body<f64, 2, _, _, _> = view.body;
         let (broken, worst) = (body.broken_bonds(), body.worst_index());
         println!("t = {:6.2} µs: {broken:5} bonds broken, worst index {worst:.2}", view.time * 1e6);
-        Ok(if broken > 2000 { Flow::Stop } else { Flow::Continue })
+        Ok(if broken > 600 { Flow::Stop } else { Flow::Continue })
     });
-    run.until(40e-6)?;
+    run.until(80e-6)?;
 
     let body = run.body();
     let gained = (0..body.nodes()).map(|i| (i, body.position(i), body.damage(i) - start[i]));
