@@ -34,8 +34,7 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let mode = PlaneMode::PlaneStress;
     let rock = Pmb::plane(&moduli, mode, 2500.0, InfluenceFunction::Constant)?;
     let tilt = 30_f64.to_radians();
-    let layered =
-        Layered { normal: [-tilt.sin(), tilt.cos()].into(), along: 2e-3, across: 4e-4 };
+    let layered = Layered { normal: [-tilt.sin(), tilt.cos()].into(), along: 2e-3, across: 4e-4 };
     let top = grid.select(|x| x[1] > 0.5 * size - 3.0 * dx);
     let bottom = grid.select(|x| x[1] < -0.5 * size + 3.0 * dx);
     let policy = Breaking::new(layered.sparing(&top.union(&bottom)))

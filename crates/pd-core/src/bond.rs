@@ -41,7 +41,8 @@ impl<T: Real, const D: usize> Bond<T, D> {
 }
 
 /// One end of a bond: the bond's constants as that end sees them, the node's constants and
-/// state, and β V of the *other* end (0 where the other end is outside this end's horizon).
+/// state, and what weighs the end's force state: β V of the neighbour (0 where the bond is outside
+/// this end's horizon).
 #[derive(Debug, Clone, Copy)]
 pub struct End<'a, T, K, C, S> {
     /// Constants of the bond, [`crate::Material::bond_const`].
@@ -50,7 +51,8 @@ pub struct End<'a, T, K, C, S> {
     pub node: &'a C,
     /// State of the node, [`crate::Material::node_state`].
     pub state: &'a S,
-    /// Quadrature volume β V of the other end, in Δx^D.
+    /// Quadrature volume β V in Δx^D. In a damage criterion 1 if the bond is inside this end's
+    /// horizon, else 0.
     pub volume: T,
 }
 

@@ -26,7 +26,7 @@ const SNAP: f64 = 8.0 * f64::EPSILON;
 #[derive(Debug, Clone, Copy)]
 struct Entry<T, const D: usize> {
     xi: SVector<T, D>,
-    /// β_ij V_j and β_ji V_i.
+    /// β_ij V_j and β_ji V_j: what weighs T_i and T_j in the force density of node i.
     volumes: [T; 2],
     neighbour: u32,
 }
@@ -119,8 +119,8 @@ impl<T: Real, const D: usize> Cloud<T, D> {
                 snapped(b - a, a.abs().max(b.abs()))
             })
         };
-        let volume_beyond = |i: usize, j: usize, xi: &SVector<f64, D>| {
-            cloud.quadrature.weight(xi, &cloud.cell(j), cloud.horizon(i)) * cloud.unit_volume(j)
+        let beta = |i: usize, j: usize, xi: &SVector<f64, D>| {
+            cloud.quadrature.weight(xi, &cloud.cell(j), cloud.horizon(i))
         };
         let lists: Vec<Vec<Entry<T, D>>> = (0..n)
             .into_par_iter()
@@ -128,11 +128,12 @@ impl<T: Real, const D: usize> Cloud<T, D> {
                 let mut row = Vec::new();
                 for &j in &rows.neighbour[rows.start[i]..rows.start[i + 1]] {
                     let xi = xi(i, j as usize);
-                    let volumes =
-                        [volume_beyond(i, j as usize, &xi), volume_beyond(j as usize, i, &-xi)];
+                    let j = j as usize;
+                    let volume = cloud.unit_volume(j);
+                    let volumes = [beta(i, j, &xi) * volume, beta(j, i, &-xi) * volume];
                     if volumes[0] > 0.0 || volumes[1] > 0.0 {
                         let (xi, volumes) = (xi.map(T::of), volumes.map(T::of));
-                        row.push(Entry { xi, volumes, neighbour: j });
+                        row.push(Entry { xi, volumes, neighbour: j as u32 });
                     }
                 }
                 row
@@ -411,12 +412,12 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
                 let other = (input.load(j), u.get(j));
                 let constants = table.ends(begin + at);
                 let bond = Bond { xi: entry.xi, eta: other.1 - own.1 };
+                let seen = entry.volumes.map(|v| if v > T::zero() { T::one() } else { T::zero() });
                 let index = if node < j {
-                    let pair = Pair { constants, volumes: entry.volumes };
+                    let pair = Pair { constants, volumes: seen };
                     test.index(&bond, pair, [&own.0, &other.0])
                 } else {
-                    let [a, b] = constants;
-                    let [v, w] = entry.volumes;
+                    let ([a, b], [v, w]) = (constants, seen);
                     let pair = Pair { constants: [b, a], volumes: [w, v] };
                     test.index(&bond.reversed(), pair, [&other.0, &own.0])
                 };

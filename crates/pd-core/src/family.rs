@@ -14,7 +14,8 @@ use nalgebra::SVector;
 pub struct Pair<'a, T, K> {
     /// Constants of the bond at each end.
     pub constants: [&'a K; 2],
-    /// β V of the other node, at each end; 0 where that node is outside the end's horizon.
+    /// β V of the neighbour with β as each end sees it: 0 outside that end's horizon. In a
+    /// [`BondTest`] 1 or 0.
     pub volumes: [T; 2],
 }
 

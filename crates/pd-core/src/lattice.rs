@@ -398,7 +398,7 @@ where
             let beyond = start.wrapping_add_signed(offset.site);
             let far = <SVector<T, D> as Record<T>>::block(job.u.as_slice(), lattice.sites, beyond);
             let other_block = job.input.block(beyond);
-            let pair = Pair { constants: [k, k], volumes: [offset.volume, offset.volume] };
+            let pair = Pair { constants: [k, k], volumes: [T::one(); 2] };
             let mut index = [T::zero(); LANES];
             for l in 0..LANES {
                 let bond = Bond { xi: offset.xi, eta: relative(&near, &far, l) };

@@ -1,1 +1,2 @@
-//! TODO
+//! Problems with known solutions, for tests, benches and examples. Not published.
+pub mod oracle;
