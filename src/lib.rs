@@ -1,4 +1,34 @@
-//! Peridynamics for anisotropic solids.
+#![doc = include_str!("../README.md")]
+//!
+//! # Criteria that do not fit
+//! Tsai–Hill asks for a stress; a bond-based material has none:
+//!
+//! ```compile_fail,E0277
+//! use peridynamics::prelude::*;
+//! fn plate(family: Lattice<f64, 2>, moduli: &Isotropic) -> Result<()> {
+//!     let mode = PlaneMode::PlaneStress;
+//!     let bonds = Pmb::plane(moduli, mode, 2500.0, InfluenceFunction::Constant).unwrap();
+//!     let strengths = Strengths { along: 1e9, across: 6e7, shear: 7e7 };
+//!     let tsai_hill = TsaiHill::new(&strengths, 0.0)?;
+//!     // error: `Ordinary<Pmb>` has no stress at a node, so a stress-based criterion cannot use it
+//!     let body = Body::new(family, Ordinary::new(bonds), Breaking::new(tsai_hill))?;
+//!     Ok(())
+//! }
+//! ```
+//!
+//! With a correspondence material the same lines compile:
+//!
+//! ```no_run
+//! use peridynamics::prelude::*;
+//! fn plate(family: Lattice<f64, 2>, stiffness: Stiffness<2>) -> Result<()> {
+//!     let law = LinearElastic(stiffness);
+//!     let material = Correspondence::new(law, 2500.0, InfluenceFunction::Linear).unwrap();
+//!     let strengths = Strengths { along: 1e9, across: 6e7, shear: 7e7 };
+//!     let tsai_hill = TsaiHill::new(&strengths, 0.0)?;
+//!     let body = Body::new(family, material, Breaking::new(tsai_hill))?;
+//!     Ok(())
+//! }
+//! ```
 pub use pd_core as core;
 pub use pd_damage as damage;
 #[cfg(feature = "io")]

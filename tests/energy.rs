@@ -1,0 +1,56 @@
+//! Energy stays over long runs; a step above the critical one is refused or detected.
+mod common;
+use peridynamics::prelude::*;
+
+fn plate() -> Body<f64, 2, Lattice<f64, 2>, Ordinary<LinearSolid>, NoDamage> {
+    let grid = Grid::new(&Cuboid::centred([6.0, 6.0]).expect("box"), 1.0).expect("grid");
+    let moduli = Isotropic::from_young_poisson(1e9, 0.25).expect("moduli");
+    let mode = PlaneMode::PlaneStrain;
+    let model = LinearSolid::plane(&moduli, mode, 1e3, InfluenceFunction::Constant).expect("m");
+    let family = Lattice::new(&grid, Horizon::Cells(2.0), Quadrature::None).expect("family");
+    let mut body = Body::new(family, Ordinary::new(model), NoDamage).expect("body");
+    body.set_velocity(|x| common::wavy(x, 1.0, 1e-2));
+    body
+}
+
+#[test]
+fn energy_drifts_by_less_than_a_thousandth() {
+    let mut body = plate();
+    let mut run = Run::new(&mut body, Loads::new(), TimeStep::Safety(0.9)).expect("run");
+    run = run.with_energies();
+    let total = |run: &Run<'_, f64, 2, _>| {
+        let e = run.energies().expect("energies");
+        e.kinetic + e.strain
+    };
+    // Verlet's energy swings within a period: compare means over many steps.
+    let mut mean = |steps: usize| {
+        let mut sum = 0.0;
+        for _ in 0..500 {
+            run.steps_more(1).expect("step");
+            sum += total(&run);
+        }
+        run.steps_more(steps).expect("steps");
+        sum / 500.0
+    };
+    let start = mean(100_000);
+    let drift = mean(0) / start - 1.0;
+    assert!(drift.abs() < 1e-3, "{drift:e}");
+}
+
+#[test]
+fn unstable_steps_are_refused_or_detected() {
+    let mut body = plate();
+    let critical = {
+        let run = Run::new(&mut body, Loads::new(), TimeStep::Safety(1.0)).expect("run");
+        run.dt()
+    };
+    let refused = Run::new(&mut body, Loads::new(), TimeStep::Fixed(1.05 * critical)).err();
+    assert!(matches!(refused, Some(Error::UnstableTimeStep { .. })), "{refused:?}");
+    let rule = TimeStep::Unchecked(1.05 * critical);
+    let mut run = Run::new(&mut body, Loads::new(), rule).expect("run");
+    let ended = run.steps_more(20_000).err();
+    assert!(matches!(ended, Some(Error::BlowUp { .. })), "{ended:?}");
+    let mut body = plate();
+    let mut run = Run::new(&mut body, Loads::new(), TimeStep::Fixed(0.99 * critical)).expect("run");
+    run.steps_more(20_000).expect("stable");
+}
