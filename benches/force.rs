@@ -69,9 +69,13 @@ fn cloud<T: Real, const D: usize>(grid: &Grid<D>) -> Cloud<T, D> {
     Cloud::new(&Points::from_grid(grid), Horizon::Cells(M), Quadrature::None).expect("family")
 }
 
+/// A criterion that is tested in every step and breaks nothing.
+fn stretch<const D: usize>() -> Breaking<CriticalStretch, D> {
+    Breaking::new(CriticalStretch::new(1.0).expect("criterion"))
+}
+
 fn models<T: Real>(criterion: &mut Criterion, lines: &mut Vec<Line>) {
     let (flat, deep) = (grid::<2>(256), grid::<3>(40));
-    let stretch = || Breaking::new(CriticalStretch::new(1.0).expect("criterion"));
     let third = Isotropic::from_young_poisson(1e9, 1.0 / 3.0).expect("moduli");
     let quarter = Isotropic::from_young_poisson(1e9, 0.25).expect("moduli");
     let (mode, omega) = (PlaneMode::PlaneStress, InfluenceFunction::Constant);

@@ -38,9 +38,9 @@ fn an_empty_family() {
 #[test]
 fn unphysical_constants() {
     let ply = Lamina { e1: 1e9, e2: 4e9, g12: 1e9, nu12: 0.6 };
-    let error = Stiffness::<2>::lamina(&ply).err().expect("refused").to_string();
+    let error = Stiffness::<2>::lamina(&ply).expect_err("refused").to_string();
     assert!(error.contains("eigenvalue") && error.contains("ν12"), "{error}");
-    let error = Isotropic::from_young_poisson(1e9, 0.5).err().expect("refused").to_string();
+    let error = Isotropic::from_young_poisson(1e9, 0.5).expect_err("refused").to_string();
     assert!(error.contains("0.5"), "{error}");
     let moduli = Isotropic::from_young_poisson(1e9, 0.3).expect("moduli");
     let refused = Pmb::solid(&moduli, 1e3, InfluenceFunction::Constant).err();
@@ -57,6 +57,6 @@ fn loads_that_make_no_sense() {
     assert!(matches!(error, Error::ConflictingConditions { axis: 0, .. }), "{error}");
     let late = Loads::new().velocity(&edge, 0, |t: f64| if t > 1e-3 { f64::NAN } else { 0.0 });
     let mut run = Run::new(&mut body, late, TimeStep::Safety(0.5)).expect("run");
-    let error = run.until(1.0).err().expect("ends");
+    let error = run.until(1.0).expect_err("ends");
     assert!(matches!(error, Error::NotFinite { .. }), "{error}");
 }

@@ -265,7 +265,7 @@ fn node_fields_of_ordinary_models() {
         || Ordinary::linearised(model()),
         |_, node| {
             let n = case.positions::<3>().len();
-            let theta: Vec<f64> = (0..n).map(|i| node(i)).map(|(c, s)| s / c).collect();
+            let theta: Vec<f64> = (0..n).map(node).map(|(c, s)| s / c).collect();
             let m: Vec<f64> = (0..n).map(|i| case.number("dx").powi(5) / node(i).0).collect();
             assert!(relative_difference(&theta, &case.result("linear_small", "theta")) < 1e-12);
             assert!(relative_difference(&m, &case.result("linear_small", "m")) < 1e-12);

@@ -13,7 +13,7 @@ fn run<F: Family<f64, 2>>(family: F, threads: usize) -> (Vec<SVector<f64, 2>>, u
         let policy = Breaking::new(TsaiHill::new(&strengths, 0.6).expect("criterion"))
             .precracked(Segment::new([-0.01, 0.0], [0.01, 0.0]).expect("crack"));
         let mut body = Body::new(family, material, policy).expect("body");
-        body.set_velocity(|x| [0.0, 600.0 * x[1]].into());
+        body.set_velocity(|x| [0.0, 2000.0 * x[1]].into());
         let mut broken = vec![vec![false; 0]; body.nodes()];
         let mut run = Run::new(&mut body, Loads::new(), TimeStep::Safety(0.3)).expect("run");
         run.observe(5, |view: &View<'_, _>| {

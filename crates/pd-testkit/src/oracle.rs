@@ -62,7 +62,7 @@ impl Case {
         let high = positions.iter().fold(positions[0], |a, b| a.sup(b));
         let cells = std::array::from_fn(|d| ((high[d] - low[d]) / dx).round() as usize + 1);
         let there = |x: &SVector<f64, D>| positions.iter().any(|p| (p - x).norm() < 0.1 * dx);
-        Some(Grid::lattice(low, SVector::repeat(dx), cells).ok()?.retain(there).ok()?)
+        Grid::lattice(low, SVector::repeat(dx), cells).ok()?.retain(there).ok()
     }
     /// Horizon.
     pub fn horizon(&self) -> Horizon {
