@@ -113,12 +113,9 @@ impl<T: Real, const D: usize> Cloud<T, D> {
         let rows = neighbours(&scaled, |i| {
             cloud.quadrature.reach(&cloud.cell(i), cloud.horizon(i)).max(cloud.horizon(i))
         });
-        let xi = |i: usize, j: usize| {
-            SVector::from_fn(|d, _| {
-                let (a, b) = (scaled[i][d], scaled[j][d]);
-                snapped(b - a, a.abs().max(b.abs()))
-            })
-        };
+        // Coordinates carry the rounding of the whole cloud's extent, not of their own size.
+        let extent = scaled.iter().map(SVector::amax).fold(0.0, f64::max);
+        let xi = |i: usize, j: usize| (scaled[j] - scaled[i]).map(|x| snapped(x, extent));
         let beta = |i: usize, j: usize, xi: &SVector<f64, D>| {
             cloud.quadrature.weight(xi, &cloud.cell(j), cloud.horizon(i))
         };
