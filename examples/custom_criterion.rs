@@ -1,5 +1,5 @@
 //! A damage criterion of your own: a layered rock whose bonds across the layers break at a smaller
-//! stretch than bonds along them, so that a crack turns into the layers.
+//! stretch than bonds along them, so that a crack leaves its line.
 //!
 //! `cargo run --release --example custom_criterion`
 
