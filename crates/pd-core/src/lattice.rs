@@ -281,7 +281,7 @@ fn sweep_chunk<T, const D: usize, Kn, I>(
             continue;
         }
         let start = block * LANES;
-        let near = <SVector<T, D> as Record<T>>::block(job.u.as_slice(), lattice.sites, start);
+        let near = job.u.block(start);
         let own_block = job.input.block(start);
         let mut sums = <Kn::Sum as Record<T>>::lanes();
         let full = match job.bits {
@@ -302,7 +302,7 @@ fn sweep_chunk<T, const D: usize, Kn, I>(
                 there
             };
             let beyond = start.wrapping_add_signed(offset.site);
-            let far = <SVector<T, D> as Record<T>>::block(job.u.as_slice(), lattice.sites, beyond);
+            let far = job.u.block(beyond);
             let other_block = job.input.block(beyond);
             let pair = Pair { constants: [k, k], volumes: [offset.volume, offset.volume] };
             if there == 0xff {
@@ -388,7 +388,7 @@ where
             continue;
         }
         let start = block * LANES;
-        let near = <SVector<T, D> as Record<T>>::block(job.u.as_slice(), lattice.sites, start);
+        let near = job.u.block(start);
         let own_block = job.input.block(start);
         let owned = lattice.offsets[half..].iter().zip(&job.table[half..]);
         for (byte, (offset, k)) in bytes.iter_mut().zip(owned) {
@@ -396,7 +396,7 @@ where
                 continue;
             }
             let beyond = start.wrapping_add_signed(offset.site);
-            let far = <SVector<T, D> as Record<T>>::block(job.u.as_slice(), lattice.sites, beyond);
+            let far = job.u.block(beyond);
             let other_block = job.input.block(beyond);
             let pair = Pair { constants: [k, k], volumes: [T::one(); 2] };
             let mut index = [T::zero(); LANES];

@@ -5,6 +5,7 @@
 //! plain scalar material code vectorise over nodes.
 
 use crate::Real;
+use crate::planes::Planes;
 use nalgebra::SMatrix;
 
 /// Number of consecutive nodes that a lattice kernel handles together.
@@ -39,8 +40,8 @@ pub trait Record<T: Real>: Copy + Send + Sync + 'static {
         planes: Self::PlanesMut<'a>,
         mid: usize,
     ) -> (Self::PlanesMut<'a>, Self::PlanesMut<'a>);
-    /// The nodes `start .. start + LANES`.
-    fn block(data: &[T], stride: usize, start: usize) -> Self::Block<'_>;
+    /// The nodes of `planes`, with the scalars of this record from plane `first` on.
+    fn block(planes: Planes<'_, T>, first: usize) -> Self::Block<'_>;
     /// Node `lane` of a block.
     fn lane(block: &Self::Block<'_>, lane: usize) -> Self;
     /// Node `i` of the planes.
@@ -89,8 +90,8 @@ impl<T: Real> Record<T> for T {
         planes.split_at_mut(mid)
     }
     #[inline(always)]
-    fn block(data: &[T], _stride: usize, start: usize) -> &[T; LANES] {
-        data[start..start + LANES].try_into().expect("length is LANES")
+    fn block(planes: Planes<'_, T>, first: usize) -> &[T; LANES] {
+        planes.plane(first)
     }
     #[inline(always)]
     fn lane(block: &&[T; LANES], lane: usize) -> T {
@@ -133,7 +134,7 @@ impl<T: Real> Record<T> for () {
         ((), ())
     }
     #[inline(always)]
-    fn block(_: &[T], _: usize, _: usize) -> Self::Block<'_> {}
+    fn block(_: Planes<'_, T>, _: usize) -> Self::Block<'_> {}
     #[inline(always)]
     fn lane((): &(), _: usize) -> Self {}
     #[inline(always)]
@@ -205,13 +206,8 @@ impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
         (low, high)
     }
     #[inline(always)]
-    fn block(data: &[T], stride: usize, start: usize) -> Self::Block<'_> {
-        std::array::from_fn(|c| {
-            std::array::from_fn(|r| {
-                let at = (c * R + r) * stride + start;
-                data[at..at + LANES].try_into().expect("length is LANES")
-            })
-        })
+    fn block(planes: Planes<'_, T>, first: usize) -> Self::Block<'_> {
+        std::array::from_fn(|c| std::array::from_fn(|r| planes.plane(first + c * R + r)))
     }
     #[inline(always)]
     fn lane(block: &Self::Block<'_>, lane: usize) -> Self {
@@ -277,9 +273,8 @@ impl<T: Real, A: Record<T>, B: Record<T>> Record<T> for (A, B) {
         ((a0, b0), (a1, b1))
     }
     #[inline(always)]
-    fn block(data: &[T], stride: usize, start: usize) -> Self::Block<'_> {
-        let (a, b) = data.split_at(A::LEN * stride);
-        (A::block(a, stride, start), B::block(b, stride, start))
+    fn block(planes: Planes<'_, T>, first: usize) -> Self::Block<'_> {
+        (A::block(planes, first), B::block(planes, first + A::LEN))
     }
     #[inline(always)]
     fn lane(block: &Self::Block<'_>, lane: usize) -> Self {
@@ -369,7 +364,7 @@ impl<'a, T: Real, R: Record<T>> Inputs<T> for &'a Field<T, R> {
     type Block = R::Block<'a>;
     #[inline(always)]
     fn block(&self, start: usize) -> R::Block<'a> {
-        R::block(&self.data, self.stride, start)
+        R::block(Planes::new(&self.data, self.stride, start, R::LEN), 0)
     }
     #[inline(always)]
     fn lane(block: &R::Block<'a>, lane: usize) -> R {
