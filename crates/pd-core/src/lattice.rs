@@ -8,6 +8,7 @@
 use crate::bond::{Bond, Member, Scale};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
 use crate::grid::Grid;
+use crate::planes::Planes;
 use crate::quadrature::Quadrature;
 use crate::record::{Field, Inputs, LANES, Record};
 use crate::{Error, Real, Result};
@@ -256,11 +257,37 @@ where
 
 #[inline(always)]
 fn relative<T: Real, const D: usize>(
-    near: &[[&[T; LANES]; D]; 1],
-    far: &[[&[T; LANES]; D]; 1],
+    near: &Planes<'_, T>,
+    far: &Planes<'_, T>,
     lane: usize,
 ) -> SVector<T, D> {
-    SVector::from_fn(|d, _| far[0][d][lane] - near[0][d][lane])
+    SVector::from_fn(|d, _| far.plane(d)[lane] - near.plane(d)[lane])
+}
+
+/// Adds the bonds along one offset of a block of nodes; a lane of volume 0 adds nothing.
+#[inline(always)]
+fn add_lanes<'a, T, const D: usize, Kn, I>(
+    job: &Job<'a, T, D, Kn, I>,
+    sums: &mut <Kn::Sum as Record<T>>::Lanes,
+    (offset, k, volumes): (&Offset<T, D>, &Kn::Const, [T; LANES]),
+    start: usize,
+    (near, own): (&Planes<'a, T>, &I::Block),
+) where
+    T: Real,
+    Kn: BondKernel<T, D>,
+    I: Inputs<T, Value = Kn::Node>,
+{
+    let beyond = start.wrapping_add_signed(offset.site);
+    let far = job.u.block(beyond);
+    let other = job.input.block(beyond);
+    for l in 0..LANES {
+        let pair = Pair { constants: [k, k], volumes: [volumes[l]; 2] };
+        let bond = Bond { xi: offset.xi, eta: relative(near, &far, l) };
+        let nodes = [I::lane(own, l), I::lane(&other, l)];
+        let mut sum = <Kn::Sum as Record<T>>::get(sums, l);
+        job.kernel.add(&mut sum, &bond, pair, [&nodes[0], &nodes[1]]);
+        sum.put(sums, l);
+    }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
@@ -288,39 +315,22 @@ fn sweep_chunk<T, const D: usize, Kn, I>(
             Some(bits) => bits.full[block].load(Relaxed) == 1,
             None => lattice.interior[block],
         };
-        for (o, (offset, k)) in lattice.offsets.iter().zip(job.table).enumerate() {
-            let there = if full {
-                0xff
-            } else {
+        let offsets = lattice.offsets.iter().zip(job.table);
+        if full {
+            for (offset, k) in offsets {
+                let volumes = [offset.volume; LANES];
+                add_lanes(job, &mut sums, (offset, k, volumes), start, (&near, &own_block));
+            }
+        } else {
+            for (o, (offset, k)) in offsets.enumerate() {
                 let there = match job.bits {
                     Some(bits) => lattice.intact_byte(bits, block, o),
                     None => mask & lattice.present_byte(block, o),
                 };
-                if there == 0 {
-                    continue;
-                }
-                there
-            };
-            let beyond = start.wrapping_add_signed(offset.site);
-            let far = job.u.block(beyond);
-            let other_block = job.input.block(beyond);
-            let pair = Pair { constants: [k, k], volumes: [offset.volume, offset.volume] };
-            if there == 0xff {
-                for l in 0..LANES {
-                    let bond = Bond { xi: offset.xi, eta: relative(&near, &far, l) };
-                    let nodes = [I::lane(&own_block, l), I::lane(&other_block, l)];
-                    let mut sum = <Kn::Sum as Record<T>>::get(&sums, l);
-                    job.kernel.add(&mut sum, &bond, pair, [&nodes[0], &nodes[1]]);
-                    sum.put(&mut sums, l);
-                }
-            } else {
-                for l in 0..LANES {
-                    let bond = Bond { xi: offset.xi, eta: relative(&near, &far, l) };
-                    let nodes = [I::lane(&own_block, l), I::lane(&other_block, l)];
-                    let sum = <Kn::Sum as Record<T>>::get(&sums, l);
-                    let mut with = sum;
-                    job.kernel.add(&mut with, &bond, pair, [&nodes[0], &nodes[1]]);
-                    Record::select(there >> l & 1 == 1, with, sum).put(&mut sums, l);
+                if there != 0 {
+                    let volume = |l| if there >> l & 1 == 1 { offset.volume } else { T::zero() };
+                    let volumes = std::array::from_fn(volume);
+                    add_lanes(job, &mut sums, (offset, k, volumes), start, (&near, &own_block));
                 }
             }
         }

@@ -17,7 +17,7 @@ pub mod integrator;
 pub mod lattice;
 pub mod loads;
 pub mod material;
-mod planes;
+pub mod planes;
 pub mod points;
 pub mod quadrature;
 pub mod real;

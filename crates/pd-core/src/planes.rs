@@ -4,7 +4,7 @@
 //! A kernel reads the planes of both ends of a bond at every offset of a lattice. Checking each
 //! plane on its own costs more than the arithmetic of a material with many planes (positive split
 //! in 3D: 43 planes an end). All planes have the same length, so one check of the range serves
-//! all of them; the number of the plane is a constant at every use, and its check folds away.
+//! all of them; the number of the plane is a constant at every use, so its bound folds away.
 #![allow(unsafe_code)]
 
 use crate::record::LANES;
@@ -33,17 +33,18 @@ impl<'a, T> Planes<'a, T> {
         Self { data, stride, start, count }
     }
 
-    /// The nodes of plane `plane`.
+    /// The nodes of plane `plane`, or of the last one if there is no such plane: a bound that
+    /// cannot fail, so that loads nobody uses disappear.
     ///
     /// # Panics
-    /// If there is no such plane.
+    /// If there are no planes.
     #[inline(always)]
     pub fn plane(&self, plane: usize) -> &'a [T; LANES] {
-        assert!(plane < self.count);
-        let at = plane * self.stride + self.start;
-        // SAFETY: at + LANES ≤ plane·stride + stride ≤ count·stride = data.len() by the two
-        // assertions, and nothing overflows as data.len() does not. An array of T has the
-        // alignment of T.
+        assert!(self.count > 0);
+        let at = plane.min(self.count - 1) * self.stride + self.start;
+        // SAFETY: at + LANES ≤ (count − 1)·stride + stride = data.len() by the assertions here and
+        // in `new`, and nothing overflows as data.len() does not. An array of T has the alignment
+        // of T.
         unsafe { &*self.data.as_ptr().add(at).cast::<[T; LANES]>() }
     }
 }

@@ -17,9 +17,6 @@ pub trait Record<T: Real>: Copy + Send + Sync + 'static {
     const LEN: usize;
     /// One plane per scalar, borrowed for writing.
     type PlanesMut<'a>: Send;
-    /// [`LANES`] consecutive nodes of every plane.
-    type Block<'a>: Copy;
-
     /// [`LANES`] records as planes, for running sums.
     type Lanes: Copy;
 
@@ -40,10 +37,8 @@ pub trait Record<T: Real>: Copy + Send + Sync + 'static {
         planes: Self::PlanesMut<'a>,
         mid: usize,
     ) -> (Self::PlanesMut<'a>, Self::PlanesMut<'a>);
-    /// The nodes of `planes`, with the scalars of this record from plane `first` on.
-    fn block(planes: Planes<'_, T>, first: usize) -> Self::Block<'_>;
-    /// Node `lane` of a block.
-    fn lane(block: &Self::Block<'_>, lane: usize) -> Self;
+    /// Node `lane` of a block whose planes from `first` on hold this record.
+    fn lane(block: &Planes<'_, T>, first: usize, lane: usize) -> Self;
     /// Node `i` of the planes.
     fn load(data: &[T], stride: usize, i: usize) -> Self;
     /// Node `i` of writable planes.
@@ -55,7 +50,6 @@ pub trait Record<T: Real>: Copy + Send + Sync + 'static {
 impl<T: Real> Record<T> for T {
     const LEN: usize = 1;
     type PlanesMut<'a> = &'a mut [T];
-    type Block<'a> = &'a [T; LANES];
     type Lanes = [T; LANES];
 
     #[inline(always)]
@@ -90,12 +84,8 @@ impl<T: Real> Record<T> for T {
         planes.split_at_mut(mid)
     }
     #[inline(always)]
-    fn block(planes: Planes<'_, T>, first: usize) -> &[T; LANES] {
-        planes.plane(first)
-    }
-    #[inline(always)]
-    fn lane(block: &&[T; LANES], lane: usize) -> T {
-        block[lane]
+    fn lane(block: &Planes<'_, T>, first: usize, lane: usize) -> T {
+        block.plane(first)[lane]
     }
     #[inline(always)]
     fn load(data: &[T], _stride: usize, i: usize) -> T {
@@ -114,7 +104,6 @@ impl<T: Real> Record<T> for T {
 impl<T: Real> Record<T> for () {
     const LEN: usize = 0;
     type PlanesMut<'a> = ();
-    type Block<'a> = ();
     type Lanes = ();
 
     #[inline(always)]
@@ -134,9 +123,7 @@ impl<T: Real> Record<T> for () {
         ((), ())
     }
     #[inline(always)]
-    fn block(_: Planes<'_, T>, _: usize) -> Self::Block<'_> {}
-    #[inline(always)]
-    fn lane((): &(), _: usize) -> Self {}
+    fn lane(_: &Planes<'_, T>, _: usize, _: usize) -> Self {}
     #[inline(always)]
     fn load(_: &[T], _: usize, _: usize) -> Self {}
     #[inline(always)]
@@ -148,7 +135,6 @@ impl<T: Real> Record<T> for () {
 impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
     const LEN: usize = R * C;
     type PlanesMut<'a> = [[&'a mut [T]; R]; C];
-    type Block<'a> = [[&'a [T; LANES]; R]; C];
     type Lanes = [[[T; LANES]; R]; C];
 
     #[inline(always)]
@@ -206,12 +192,8 @@ impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
         (low, high)
     }
     #[inline(always)]
-    fn block(planes: Planes<'_, T>, first: usize) -> Self::Block<'_> {
-        std::array::from_fn(|c| std::array::from_fn(|r| planes.plane(first + c * R + r)))
-    }
-    #[inline(always)]
-    fn lane(block: &Self::Block<'_>, lane: usize) -> Self {
-        Self::from_fn(|r, c| block[c][r][lane])
+    fn lane(block: &Planes<'_, T>, first: usize, lane: usize) -> Self {
+        Self::from_fn(|r, c| block.plane(first + c * R + r)[lane])
     }
     #[inline(always)]
     fn load(data: &[T], stride: usize, i: usize) -> Self {
@@ -234,7 +216,6 @@ impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
 impl<T: Real, A: Record<T>, B: Record<T>> Record<T> for (A, B) {
     const LEN: usize = A::LEN + B::LEN;
     type PlanesMut<'a> = (A::PlanesMut<'a>, B::PlanesMut<'a>);
-    type Block<'a> = (A::Block<'a>, B::Block<'a>);
     type Lanes = (A::Lanes, B::Lanes);
 
     #[inline(always)]
@@ -273,12 +254,8 @@ impl<T: Real, A: Record<T>, B: Record<T>> Record<T> for (A, B) {
         ((a0, b0), (a1, b1))
     }
     #[inline(always)]
-    fn block(planes: Planes<'_, T>, first: usize) -> Self::Block<'_> {
-        (A::block(planes, first), B::block(planes, first + A::LEN))
-    }
-    #[inline(always)]
-    fn lane(block: &Self::Block<'_>, lane: usize) -> Self {
-        (A::lane(&block.0, lane), B::lane(&block.1, lane))
+    fn lane(block: &Planes<'_, T>, first: usize, lane: usize) -> Self {
+        (A::lane(block, first, lane), B::lane(block, first + A::LEN, lane))
     }
     #[inline(always)]
     fn load(data: &[T], stride: usize, i: usize) -> Self {
@@ -361,14 +338,14 @@ pub trait Inputs<T: Real>: Copy + Send + Sync {
 
 impl<'a, T: Real, R: Record<T>> Inputs<T> for &'a Field<T, R> {
     type Value = R;
-    type Block = R::Block<'a>;
+    type Block = Planes<'a, T>;
     #[inline(always)]
-    fn block(&self, start: usize) -> R::Block<'a> {
-        R::block(Planes::new(&self.data, self.stride, start, R::LEN), 0)
+    fn block(&self, start: usize) -> Planes<'a, T> {
+        Planes::new(&self.data, self.stride, start, R::LEN)
     }
     #[inline(always)]
-    fn lane(block: &R::Block<'a>, lane: usize) -> R {
-        R::lane(block, lane)
+    fn lane(block: &Planes<'a, T>, lane: usize) -> R {
+        R::lane(block, 0, lane)
     }
     #[inline(always)]
     fn load(&self, i: usize) -> R {
