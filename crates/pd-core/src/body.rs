@@ -29,6 +29,7 @@ where
     table: F::PerBond<M::BondConst>,
     bits: Option<F::Bits>,
     node_const: Field<T, M::NodeConst>,
+    family_const: Field<T, M::FamilyConst>,
     node_state: Field<T, M::NodeState>,
     criterion_const: Field<T, P::NodeConst>,
     criterion_value: Field<T, P::NodeValue>,
@@ -55,6 +56,7 @@ struct StrainKernel<'a, M>(&'a M);
 impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for StrainKernel<'_, M> {
     type Const = M::BondConst;
     type Node = M::NodeConst;
+    type Own = M::FamilyConst;
     type Sum = M::FamilySum;
     type Out = M::NodeState;
 
@@ -75,9 +77,10 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for StrainKern
         &self,
         sum: &M::FamilySum,
         node: &M::NodeConst,
+        own: &M::FamilyConst,
         previous: M::NodeState,
     ) -> M::NodeState {
-        self.0.node_state(sum, node, &previous)
+        self.0.node_state(sum, node, own, &previous)
     }
 }
 
@@ -100,6 +103,7 @@ fn ends<'a, T: Real, const D: usize, M: Material<T, D>>(
 impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for ForceKernel<'_, M> {
     type Const = M::BondConst;
     type Node = (M::NodeConst, M::NodeState);
+    type Own = ();
     type Sum = SVector<T, D>;
     type Out = SVector<T, D>;
 
@@ -114,7 +118,13 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for ForceKerne
         *sum += self.0.pair_force(bond, ends::<T, D, M>(pair, nodes));
     }
     #[inline(always)]
-    fn close(&self, sum: &SVector<T, D>, _: &Self::Node, _: SVector<T, D>) -> SVector<T, D> {
+    fn close(
+        &self,
+        sum: &SVector<T, D>,
+        _: &Self::Node,
+        (): &(),
+        _: SVector<T, D>,
+    ) -> SVector<T, D> {
         *sum
     }
 }
@@ -125,6 +135,7 @@ struct EnergyKernel<'a, M>(&'a M);
 impl<T: Real, const D: usize, M: StrainEnergy<T, D>> BondKernel<T, D> for EnergyKernel<'_, M> {
     type Const = M::BondConst;
     type Node = (M::NodeConst, M::NodeState);
+    type Own = ();
     type Sum = T;
     type Out = T;
 
@@ -140,7 +151,7 @@ impl<T: Real, const D: usize, M: StrainEnergy<T, D>> BondKernel<T, D> for Energy
         *sum += self.0.bond_energy(bond, end) * end.volume;
     }
     #[inline(always)]
-    fn close(&self, sum: &T, (constants, state): &Self::Node, _: T) -> T {
+    fn close(&self, sum: &T, (constants, state): &Self::Node, (): &(), _: T) -> T {
         *sum + self.0.node_energy(constants, state)
     }
 }
@@ -202,6 +213,7 @@ where
 
         let mut body = Self {
             node_const: Field::zeros(sites),
+            family_const: Field::zeros(sites),
             node_state: Field::zeros(sites),
             criterion_const,
             criterion_value: Field::zeros(if P::ACTIVE { sites } else { 0 }),
@@ -242,7 +254,7 @@ where
         // break later: only for a material that follows damage.
         let live =
             if M::FOLLOWS_DAMAGE || policy.cracks().leave_family { bits.as_ref() } else { None };
-        let constants: Result<Vec<M::NodeConst>> = (0..family.nodes())
+        let constants: Result<Vec<(M::NodeConst, M::FamilyConst)>> = (0..family.nodes())
             .into_par_iter()
             .map_init(Vec::new, |members, node| {
                 family.members(node, table, None, members);
@@ -257,8 +269,10 @@ where
                 material.node_const(&Neighbourhood { node, scale: family.scale(node), members })
             })
             .collect();
-        for (node, value) in constants?.into_iter().enumerate() {
-            self.node_const.set(self.family.site(node), value);
+        for (node, (value, own)) in constants?.into_iter().enumerate() {
+            let site = self.family.site(node);
+            self.node_const.set(site, value);
+            self.family_const.set(site, own);
         }
         Ok(())
     }
@@ -310,6 +324,10 @@ where
     pub fn constants(&self, node: usize) -> M::NodeConst {
         self.node_const.get(self.family.site(node))
     }
+    /// What else the state of a node is made from, lengths in units of Δx.
+    pub fn family_constants(&self, node: usize) -> M::FamilyConst {
+        self.family_const.get(self.family.site(node))
+    }
     /// State of a node of the last evaluation, lengths in units of Δx.
     pub fn state(&self, node: usize) -> M::NodeState {
         self.node_state.get(self.family.site(node))
@@ -360,7 +378,7 @@ where
             family: self.family.bytes(),
             bond_constants: F::per_bond_bytes(&self.table),
             bond_bits: self.bits.as_ref().map_or(0, F::bits_bytes),
-            node_constants: self.node_const.bytes(),
+            node_constants: self.node_const.bytes() + self.family_const.bytes(),
             node_states: self.node_state.bytes(),
             criterion: self.criterion_const.bytes() + self.criterion_value.bytes(),
             motion: self.u.bytes() + self.v.bytes() + self.force.bytes(),
@@ -379,7 +397,7 @@ where
                 self.bits.as_ref(),
                 visit,
                 &self.u,
-                &self.node_const,
+                (&self.node_const, &self.family_const),
                 &mut self.node_state,
             );
         }
@@ -391,7 +409,7 @@ where
             self.bits.as_ref(),
             Visit::All,
             &self.u,
-            (&self.node_const, &self.node_state),
+            ((&self.node_const, &self.node_state), ()),
             &mut self.force,
         );
     }
@@ -410,13 +428,16 @@ where
         let Some(bits) = self.bits.take() else { return Ok(()) };
         let mut result = Ok(());
         if M::FOLLOWS_DAMAGE {
-            let Self { family, material, table, node_const, .. } = self;
+            let Self { family, material, table, node_const, family_const, .. } = self;
             let mut members = Vec::new();
             family.marked(&bits, &mut |node| {
                 family.members(node, table, Some(&bits), &mut members);
                 let scale = family.scale(node);
                 match material.node_const(&Neighbourhood { node, scale, members: &members }) {
-                    Ok(value) => node_const.set(family.site(node), value),
+                    Ok((value, own)) => {
+                        node_const.set(family.site(node), value);
+                        family_const.set(family.site(node), own);
+                    }
                     Err(error) => result = Err(error),
                 }
             });
@@ -475,7 +496,7 @@ where
             self.bits.as_ref(),
             Visit::All,
             &self.u,
-            (&self.node_const, &self.node_state),
+            ((&self.node_const, &self.node_state), ()),
             &mut out,
         );
         (0..self.nodes()).map(|node| out.get(self.family.site(node)).to_f64()).collect()

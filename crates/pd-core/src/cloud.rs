@@ -176,7 +176,7 @@ impl<T: Real, const D: usize> Cloud<T, D> {
 }
 
 /// Everything a chunk of a sweep reads.
-struct Job<'a, T, const D: usize, Kn: BondKernel<T, D>, I>
+struct Job<'a, T, const D: usize, Kn: BondKernel<T, D>, I, J>
 where
     T: Real,
 {
@@ -187,16 +187,18 @@ where
     marked: bool,
     u: &'a Field<T, SVector<T, D>>,
     input: I,
+    own: J,
 }
 
-fn sweep_range<T, const D: usize, Kn, I>(
-    job: &Job<'_, T, D, Kn, I>,
+fn sweep_range<T, const D: usize, Kn, I, J>(
+    job: &Job<'_, T, D, Kn, I, J>,
     nodes: Range<usize>,
     mut out: <Kn::Out as Record<T>>::PlanesMut<'_>,
 ) where
     T: Real,
     Kn: BondKernel<T, D>,
     I: Inputs<T, Value = Kn::Node>,
+    J: Inputs<T, Value = Kn::Own>,
 {
     if nodes.len() > CHUNK {
         let mid = nodes.len() / 2;
@@ -224,7 +226,7 @@ fn sweep_range<T, const D: usize, Kn, I>(
             job.kernel.add(&mut sum, &bond, pair, [&own, &job.input.load(j)]);
         }
         let previous = <Kn::Out as Record<T>>::read(&out, node - first);
-        job.kernel.close(&sum, &own, previous).write(&mut out, node - first);
+        job.kernel.close(&sum, &own, &job.own.load(node), previous).write(&mut out, node - first);
     }
 }
 
@@ -364,21 +366,22 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         }
     }
 
-    fn sweep<Kn, I>(
+    fn sweep<Kn, I, J>(
         &self,
         kernel: &Kn,
         table: &RowTable<Kn::Const>,
         bits: Option<&CloudBits>,
         visit: Visit,
         u: &Field<T, SVector<T, D>>,
-        input: I,
+        (input, own): (I, J),
         out: &mut Field<T, Kn::Out>,
     ) where
         Kn: BondKernel<T, D>,
         I: Inputs<T, Value = Kn::Node>,
+        J: Inputs<T, Value = Kn::Own>,
     {
         let marked = visit == Visit::Marked;
-        let job = Job { cloud: self, kernel, table, bits, marked, u, input };
+        let job = Job { cloud: self, kernel, table, bits, marked, u, input, own };
         sweep_range(&job, 0..self.nodes(), out.planes_mut());
     }
 

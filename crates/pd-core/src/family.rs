@@ -25,6 +25,8 @@ pub trait BondKernel<T: Real, const D: usize>: Sync {
     type Const: Copy + Send + Sync;
     /// What is read at both nodes of a bond.
     type Node: Copy;
+    /// What is read once per node, to close its sum.
+    type Own: Copy;
     /// The running sum of one node.
     type Sum: Record<T>;
     /// The result of one node.
@@ -38,7 +40,13 @@ pub trait BondKernel<T: Real, const D: usize>: Sync {
         nodes: [&Self::Node; 2],
     );
     /// Turns the sum into the result; `previous` is what the output held before.
-    fn close(&self, sum: &Self::Sum, node: &Self::Node, previous: Self::Out) -> Self::Out;
+    fn close(
+        &self,
+        sum: &Self::Sum,
+        node: &Self::Node,
+        own: &Self::Own,
+        previous: Self::Out,
+    ) -> Self::Out;
 }
 
 /// A test of every undirected bond: it breaks where the failure index exceeds 1.
@@ -162,18 +170,19 @@ pub trait Family<T: Real, const D: usize>: Send + Sync + Sized {
     /// Runs `kernel` over the families of all nodes. Each node's bonds are added in ascending
     /// order of the neighbour, whatever the number of threads.
     #[allow(clippy::too_many_arguments)]
-    fn sweep<Kn, I>(
+    fn sweep<Kn, I, J>(
         &self,
         kernel: &Kn,
         table: &Self::PerBond<Kn::Const>,
         bits: Option<&Self::Bits>,
         visit: Visit,
         u: &Field<T, SVector<T, D>>,
-        input: I,
+        input: (I, J),
         out: &mut Field<T, Kn::Out>,
     ) where
         Kn: BondKernel<T, D>,
-        I: Inputs<T, Value = Kn::Node>;
+        I: Inputs<T, Value = Kn::Node>,
+        J: Inputs<T, Value = Kn::Own>;
 
     /// Tests every intact undirected bond once, from its lower to its higher node, breaks those
     /// whose index exceeds 1, and marks their ends.

@@ -242,7 +242,7 @@ fn byte_at(start: usize, byte: impl Fn(usize) -> u8) -> u8 {
 }
 
 /// Everything a chunk of a sweep reads.
-struct Job<'a, T, const D: usize, Kn: BondKernel<T, D>, I>
+struct Job<'a, T, const D: usize, Kn: BondKernel<T, D>, I, J>
 where
     T: Real,
 {
@@ -253,6 +253,7 @@ where
     marked: bool,
     u: &'a Field<T, SVector<T, D>>,
     input: I,
+    own: J,
 }
 
 #[inline(always)]
@@ -266,8 +267,8 @@ fn relative<T: Real, const D: usize>(
 
 /// Adds the bonds along one offset of a block of nodes; a lane of volume 0 adds nothing.
 #[inline(always)]
-fn add_lanes<'a, T, const D: usize, Kn, I>(
-    job: &Job<'a, T, D, Kn, I>,
+fn add_lanes<'a, T, const D: usize, Kn, I, J>(
+    job: &Job<'a, T, D, Kn, I, J>,
     sums: &mut <Kn::Sum as Record<T>>::Lanes,
     (offset, k, volumes): (&Offset<T, D>, &Kn::Const, [T; LANES]),
     start: usize,
@@ -276,6 +277,7 @@ fn add_lanes<'a, T, const D: usize, Kn, I>(
     T: Real,
     Kn: BondKernel<T, D>,
     I: Inputs<T, Value = Kn::Node>,
+    J: Inputs<T, Value = Kn::Own>,
 {
     let beyond = start.wrapping_add_signed(offset.site);
     let far = job.u.block(beyond);
@@ -291,14 +293,15 @@ fn add_lanes<'a, T, const D: usize, Kn, I>(
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
-fn sweep_chunk<T, const D: usize, Kn, I>(
-    job: &Job<'_, T, D, Kn, I>,
+fn sweep_chunk<T, const D: usize, Kn, I, J>(
+    job: &Job<'_, T, D, Kn, I, J>,
     blocks: Range<usize>,
     mut out: <Kn::Out as Record<T>>::PlanesMut<'_>,
 ) where
     T: Real,
     Kn: BondKernel<T, D>,
     I: Inputs<T, Value = Kn::Node>,
+    J: Inputs<T, Value = Kn::Own>,
 {
     let lattice = job.lattice;
     let first = blocks.start;
@@ -338,20 +341,22 @@ fn sweep_chunk<T, const D: usize, Kn, I>(
             let at = (block - first) * LANES + l;
             let previous = <Kn::Out as Record<T>>::read(&out, at);
             let sum = <Kn::Sum as Record<T>>::get(&sums, l);
-            job.kernel.close(&sum, &I::lane(&own_block, l), previous).write(&mut out, at);
+            let (node, own) = (I::lane(&own_block, l), job.own.load(start + l));
+            job.kernel.close(&sum, &node, &own, previous).write(&mut out, at);
         }
     }
 }
 
 /// Halves the range until it is one chunk; the planes are split along.
-fn sweep_range<T, const D: usize, Kn, I>(
-    job: &Job<'_, T, D, Kn, I>,
+fn sweep_range<T, const D: usize, Kn, I, J>(
+    job: &Job<'_, T, D, Kn, I, J>,
     blocks: Range<usize>,
     out: <Kn::Out as Record<T>>::PlanesMut<'_>,
 ) where
     T: Real,
     Kn: BondKernel<T, D>,
     I: Inputs<T, Value = Kn::Node>,
+    J: Inputs<T, Value = Kn::Own>,
 {
     if blocks.len() <= CHUNK {
         sweep_chunk(job, blocks, out);
@@ -583,21 +588,22 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         }
     }
 
-    fn sweep<Kn, I>(
+    fn sweep<Kn, I, J>(
         &self,
         kernel: &Kn,
         table: &Vec<Kn::Const>,
         bits: Option<&LatticeBits>,
         visit: Visit,
         u: &Field<T, SVector<T, D>>,
-        input: I,
+        (input, own): (I, J),
         out: &mut Field<T, Kn::Out>,
     ) where
         Kn: BondKernel<T, D>,
         I: Inputs<T, Value = Kn::Node>,
+        J: Inputs<T, Value = Kn::Own>,
     {
         let marked = visit == Visit::Marked;
-        let job = Job { lattice: self, kernel, table, bits, marked, u, input };
+        let job = Job { lattice: self, kernel, table, bits, marked, u, input, own };
         sweep_range(&job, 0..self.sites / LANES, out.planes_mut());
     }
 

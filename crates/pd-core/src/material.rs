@@ -21,8 +21,11 @@ use nalgebra::{SMatrix, SVector};
 pub trait Material<T: Real, const D: usize>: Send + Sync {
     /// What is known from ξ alone: one entry per offset on a lattice, per bond in a cloud.
     type BondConst: Copy + Send + Sync;
-    /// What is known from the reference family: 1/m, B, the node's own parameters.
+    /// What the pair force knows of a node from its reference family: 1/m, the node's own
+    /// parameters. Read at both ends of every bond, so it is worth keeping small.
     type NodeConst: Record<T>;
+    /// What else the node state is made from, read once per node: B, 𝓜⁻¹.
+    type FamilyConst: Record<T>;
     /// The running sum over a family.
     type FamilySum: Record<T>;
     /// What the pair force needs of a node; `()` means no array and no node pass.
@@ -43,7 +46,7 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
     fn node_const(
         &self,
         family: &Neighbourhood<'_, Self::BondConst, D>,
-    ) -> Result<Self::NodeConst> {
+    ) -> Result<(Self::NodeConst, Self::FamilyConst)> {
         let _ = family;
         Ok(Record::zero())
     }
@@ -65,9 +68,10 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
         &self,
         sum: &Self::FamilySum,
         constants: &Self::NodeConst,
+        family: &Self::FamilyConst,
         previous: &Self::NodeState,
     ) -> Self::NodeState {
-        let _ = (sum, constants, previous);
+        let _ = (sum, constants, family, previous);
         Record::zero()
     }
 
@@ -148,6 +152,7 @@ pub trait StrainEnergy<T: Real, const D: usize>: Material<T, D> {
 impl<T: Real, const D: usize, M: Material<T, D>> Material<T, D> for &M {
     type BondConst = M::BondConst;
     type NodeConst = M::NodeConst;
+    type FamilyConst = M::FamilyConst;
     type FamilySum = M::FamilySum;
     type NodeState = M::NodeState;
     const FOLLOWS_DAMAGE: bool = M::FOLLOWS_DAMAGE;
@@ -162,7 +167,7 @@ impl<T: Real, const D: usize, M: Material<T, D>> Material<T, D> for &M {
     fn node_const(
         &self,
         family: &Neighbourhood<'_, Self::BondConst, D>,
-    ) -> Result<Self::NodeConst> {
+    ) -> Result<(Self::NodeConst, Self::FamilyConst)> {
         (**self).node_const(family)
     }
     #[inline(always)]
@@ -179,9 +184,10 @@ impl<T: Real, const D: usize, M: Material<T, D>> Material<T, D> for &M {
         &self,
         sum: &Self::FamilySum,
         constants: &Self::NodeConst,
+        family: &Self::FamilyConst,
         previous: &Self::NodeState,
     ) -> Self::NodeState {
-        (**self).node_state(sum, constants, previous)
+        (**self).node_state(sum, constants, family, previous)
     }
     #[inline(always)]
     fn force_state(

@@ -353,6 +353,17 @@ impl<'a, T: Real, R: Record<T>> Inputs<T> for &'a Field<T, R> {
     }
 }
 
+impl<T: Real> Inputs<T> for () {
+    type Value = ();
+    type Block = ();
+    #[inline(always)]
+    fn block(&self, _: usize) {}
+    #[inline(always)]
+    fn lane((): &(), _: usize) {}
+    #[inline(always)]
+    fn load(&self, _: usize) {}
+}
+
 impl<T: Real, A: Inputs<T>, B: Inputs<T>> Inputs<T> for (A, B) {
     type Value = (A::Value, B::Value);
     type Block = (A::Block, B::Block);

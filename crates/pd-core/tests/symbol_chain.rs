@@ -29,6 +29,7 @@ impl<const D: usize> Material<f64, D> for Springs {
     type BondConst = ();
     /// Factor of the force.
     type NodeConst = f64;
+    type FamilyConst = ();
     type FamilySum = ();
     type NodeState = ();
 
@@ -36,8 +37,8 @@ impl<const D: usize> Material<f64, D> for Springs {
         DENSITY
     }
     fn bond_const(&self, _: &SVector<f64, D>, _: Scale) {}
-    fn node_const(&self, family: &Neighbourhood<'_, (), D>) -> Result<f64, Error> {
-        Ok(1.0 + self.growth * family.node as f64)
+    fn node_const(&self, family: &Neighbourhood<'_, (), D>) -> Result<(f64, ()), Error> {
+        Ok((1.0 + self.growth * family.node as f64, ()))
     }
     fn force_state(&self, bond: &Bond<f64, D>, end: End<'_, f64, (), f64, ()>) -> SVector<f64, D> {
         let mut t = bond.eta * self.a + bond.xi * (self.b * bond.eta.norm_squared());

@@ -152,6 +152,7 @@ impl<T: Real, const D: usize, const S: usize> ScalarState<T, D> for PolynomialMi
     type BondConst = PolynomialBond<T, S>;
     /// 1/m.
     type NodeConst = T;
+    type FamilyConst = ();
     /// Σ ω|ζ| n_a n_b e βV.
     type FamilySum = SVector<T, S>;
     /// λ · sum / m².
@@ -173,16 +174,16 @@ impl<T: Real, const D: usize, const S: usize> ScalarState<T, D> for PolynomialMi
     fn node_const(
         &self,
         family: &Neighbourhood<'_, (BondLength<T>, PolynomialBond<T, S>), D>,
-    ) -> CoreResult<T> {
+    ) -> CoreResult<(T, ())> {
         let m = family.sum(|m| m.bond.1.omega.to_f64() * m.xi.norm_squared());
-        weighted_volume(m, family.node, true).map(|m| T::of(1.0 / m))
+        weighted_volume(m, family.node, true).map(|m| (T::of(1.0 / m), ()))
     }
     #[inline(always)]
     fn add(&self, sum: &mut SVector<T, S>, e: T, k: &PolynomialBond<T, S>, volume: T) {
         *sum += k.shear * (e * volume);
     }
     #[inline(always)]
-    fn close(&self, sum: &SVector<T, S>, inverse_m: &T) -> SVector<T, S> {
+    fn close(&self, sum: &SVector<T, S>, inverse_m: &T, (): &()) -> SVector<T, S> {
         self.lambda.map(T::of) * *sum * (*inverse_m * *inverse_m)
     }
     #[inline(always)]
@@ -298,8 +299,10 @@ pub struct SplitBond<T, const V: usize> {
 
 impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSplit<D, V> {
     type BondConst = SplitBond<T, V>;
-    /// k₀/m and 𝓜⁻¹ L 𝓜⁻¹.
-    type NodeConst = (T, SMatrix<T, V, V>);
+    /// k₀/m.
+    type NodeConst = T;
+    /// 𝓜⁻¹ L 𝓜⁻¹.
+    type FamilyConst = SMatrix<T, V, V>;
     /// Σ ω|ξ| e v βV.
     type FamilySum = SVector<T, V>;
     /// 𝓜⁻¹ L s.
@@ -317,7 +320,7 @@ impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSpli
     fn node_const(
         &self,
         family: &Neighbourhood<'_, (BondLength<T>, SplitBond<T, V>), D>,
-    ) -> CoreResult<Self::NodeConst> {
+    ) -> CoreResult<(T, SMatrix<T, V, V>)> {
         let mut m = 0.0;
         let mut moment = SMatrix::<f64, V, V>::zeros();
         for member in family.members {
@@ -351,18 +354,12 @@ impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSpli
         *sum += k.strain * (e * volume);
     }
     #[inline(always)]
-    fn close(&self, sum: &SVector<T, V>, constants: &Self::NodeConst) -> SVector<T, V> {
-        constants.1 * *sum
+    fn close(&self, sum: &SVector<T, V>, _: &T, spread: &SMatrix<T, V, V>) -> SVector<T, V> {
+        spread * *sum
     }
     #[inline(always)]
-    fn scalar_force(
-        &self,
-        e: T,
-        k: &SplitBond<T, V>,
-        constants: &Self::NodeConst,
-        state: &SVector<T, V>,
-    ) -> T {
-        constants.0 * k.omega * e + k.strain.dot(state)
+    fn scalar_force(&self, e: T, k: &SplitBond<T, V>, k0_over_m: &T, state: &SVector<T, V>) -> T {
+        *k0_over_m * k.omega * e + k.strain.dot(state)
     }
 }
 

@@ -88,6 +88,7 @@ impl<T: Real, const D: usize> ScalarState<T, D> for Pmb {
     /// ½ c ω / |ξ|.
     type BondConst = T;
     type NodeConst = ();
+    type FamilyConst = ();
     type FamilySum = ();
     type NodeState = ();
 
@@ -113,6 +114,7 @@ impl<T: Real, const D: usize> ScalarState<T, D> for PmbOnFamily {
     type BondConst = T;
     /// ½ c.
     type NodeConst = T;
+    type FamilyConst = ();
     type FamilySum = ();
     type NodeState = ();
 
@@ -122,9 +124,9 @@ impl<T: Real, const D: usize> ScalarState<T, D> for PmbOnFamily {
     fn bond_const(&self, xi: &SVector<f64, D>, scale: Scale) -> T {
         T::of(self.0.influence.weight(xi.norm() / scale.horizon) / xi.norm())
     }
-    fn node_const(&self, family: &Neighbourhood<'_, (BondLength<T>, T), D>) -> CoreResult<T> {
+    fn node_const(&self, family: &Neighbourhood<'_, (BondLength<T>, T), D>) -> CoreResult<(T, ())> {
         let sum = family.sum(|m| m.bond.1.to_f64() * m.xi.norm_squared());
-        Ok(T::of(if sum > 0.0 { 0.5 * self.0.modulus / sum } else { 0.0 }))
+        Ok((T::of(if sum > 0.0 { 0.5 * self.0.modulus / sum } else { 0.0 }), ()))
     }
     #[inline(always)]
     fn scalar_force(&self, e: T, k: &T, half_c: &T, (): &()) -> T {
@@ -172,6 +174,7 @@ pub struct BondBased<L>(pub L);
 impl<T: Real, const D: usize, L: BondLaw<T, D>> Material<T, D> for BondBased<L> {
     type BondConst = L::Const;
     type NodeConst = ();
+    type FamilyConst = ();
     type FamilySum = ();
     type NodeState = ();
 

@@ -166,8 +166,12 @@ pub trait ZeroEnergyControl<T: Real, const D: usize>: Send + Sync {
     type NodeConst: Record<T>;
     /// From the node's B and the sum of ω βV.
     fn node_const(&self, b: &SMatrix<f64, D, D>, omega_sum: f64, scale: Scale) -> Self::NodeConst;
-    /// Z⟨ξ⟩, with T = ω (P B ξ + Z).
-    fn force(&self, c: &Self::NodeConst, z: &SVector<T, D>) -> SVector<T, D>;
+    /// C a, with Z⟨ξ⟩ = C z and T = ω (P B ξ + Z).
+    fn stiffness_times<const N: usize>(
+        &self,
+        c: &Self::NodeConst,
+        a: &SMatrix<T, D, N>,
+    ) -> SMatrix<T, D, N>;
 }
 
 /// No control, as in Hattori: every zone-corner wave is a zero-energy mode (errata 000-20).
@@ -178,8 +182,8 @@ impl<T: Real, const D: usize> ZeroEnergyControl<T, D> for NoControl {
     type NodeConst = ();
     fn node_const(&self, _: &SMatrix<f64, D, D>, _: f64, _: Scale) {}
     #[inline(always)]
-    fn force(&self, (): &(), _: &SVector<T, D>) -> SVector<T, D> {
-        SVector::zeros()
+    fn stiffness_times<const N: usize>(&self, (): &(), _: &SMatrix<T, D, N>) -> SMatrix<T, D, N> {
+        SMatrix::zeros()
     }
 }
 
@@ -217,8 +221,8 @@ impl<T: Real, const D: usize> ZeroEnergyControl<T, D> for SillingControl {
         T::of(if detached { 0.0 } else { self.strength * c / omega_sum })
     }
     #[inline(always)]
-    fn force(&self, c: &T, z: &SVector<T, D>) -> SVector<T, D> {
-        z * *c
+    fn stiffness_times<const N: usize>(&self, c: &T, a: &SMatrix<T, D, N>) -> SMatrix<T, D, N> {
+        a * *c
     }
 }
 
@@ -255,8 +259,12 @@ impl<T: Real, const D: usize> ZeroEnergyControl<T, D> for WanControl<D> {
         })
     }
     #[inline(always)]
-    fn force(&self, c: &SMatrix<T, D, D>, z: &SVector<T, D>) -> SVector<T, D> {
-        c * z
+    fn stiffness_times<const N: usize>(
+        &self,
+        c: &SMatrix<T, D, D>,
+        a: &SMatrix<T, D, N>,
+    ) -> SMatrix<T, D, N> {
+        c * a
     }
 }
 
@@ -309,11 +317,13 @@ where
 {
     /// ω.
     type BondConst = T;
-    /// B and what the control needs.
-    type NodeConst = (SMatrix<T, D, D>, Z::NodeConst);
+    /// 1 (0 for a detached node), and what the control needs.
+    type NodeConst = (T, Z::NodeConst);
+    /// B.
+    type FamilyConst = SMatrix<T, D, D>;
     /// Σ μ ω η⊗ξ βV.
     type FamilySum = SMatrix<T, D, D>;
-    /// P B, which the pair force needs, and H.
+    /// P B − C H, which makes T = ω ((P B − C H) ξ + C η), and H.
     type NodeState = (SMatrix<T, D, D>, SMatrix<T, D, D>);
     const FOLLOWS_DAMAGE: bool = true;
     const CAN_FAULT: bool = L::NEEDS_POSITIVE_J;
@@ -324,12 +334,17 @@ where
     fn bond_const(&self, xi: &SVector<f64, D>, scale: Scale) -> T {
         T::of(self.influence.weight(xi.norm() / scale.horizon))
     }
-    fn node_const(&self, family: &Neighbourhood<'_, T, D>) -> CoreResult<Self::NodeConst> {
+    fn node_const(
+        &self,
+        family: &Neighbourhood<'_, T, D>,
+    ) -> CoreResult<(Self::NodeConst, Self::FamilyConst)> {
         let k = shape_tensor(family, |omega| omega.to_f64());
         let weighted = family.members.iter().filter(|m| m.bond > T::zero()).count();
         let b = self.shape.invert(&k, family.node, weighted)?;
         let omega_sum = family.sum(|m| m.bond.to_f64());
-        Ok((b.map(T::of), self.control.node_const(&b, omega_sum, family.scale)))
+        let attached = if b.trace() == 0.0 { T::zero() } else { T::one() };
+        let control = self.control.node_const(&b, omega_sum, family.scale);
+        Ok(((attached, control), b.map(T::of)))
     }
     #[inline(always)]
     fn add_bond(
@@ -344,11 +359,12 @@ where
     fn node_state(
         &self,
         sum: &SMatrix<T, D, D>,
-        (b, _): &Self::NodeConst,
+        (_, c): &Self::NodeConst,
+        b: &SMatrix<T, D, D>,
         _: &Self::NodeState,
     ) -> Self::NodeState {
         let h = sum * b;
-        (self.law.stress(&h) * b, h)
+        (self.law.stress(&h) * b - self.control.stiffness_times(c, &h), h)
     }
     #[inline(always)]
     fn force_state(
@@ -356,13 +372,12 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, T, Self::NodeConst, Self::NodeState>,
     ) -> SVector<T, D> {
-        let (pb, h) = end.state;
-        let z = bond.eta - h * bond.xi;
-        (pb * bond.xi + self.control.force(&end.node.1, &z)) * *end.bond
+        let (a, _) = end.state;
+        (a * bond.xi + self.control.stiffness_times(&end.node.1, &bond.eta)) * *end.bond
     }
     #[inline(always)]
-    fn detached(&self, (b, _): &Self::NodeConst) -> bool {
-        b.trace() == T::zero()
+    fn detached(&self, (attached, _): &Self::NodeConst) -> bool {
+        *attached == T::zero()
     }
     fn fault(&self, (_, h): &Self::NodeState) -> Option<f64> {
         let j = determinant(&(h + SMatrix::identity())).to_f64();
@@ -399,6 +414,6 @@ where
         end: End<'_, T, T, Self::NodeConst, Self::NodeState>,
     ) -> T {
         let z = bond.eta - end.state.1 * bond.xi;
-        T::of(0.5) * *end.bond * self.control.force(&end.node.1, &z).dot(&z)
+        T::of(0.5) * *end.bond * self.control.stiffness_times(&end.node.1, &z).dot(&z)
     }
 }

@@ -72,6 +72,7 @@ impl<T: Real, const D: usize> ScalarState<T, D> for LinearSolid {
     type BondConst = (T, T);
     /// 1/m.
     type NodeConst = T;
+    type FamilyConst = ();
     /// Σ ω|ξ| e βV.
     type FamilySum = T;
     /// θ/m.
@@ -84,16 +85,19 @@ impl<T: Real, const D: usize> ScalarState<T, D> for LinearSolid {
         let omega = self.influence.weight(xi.norm() / scale.horizon);
         (T::of(omega), T::of(omega * xi.norm()))
     }
-    fn node_const(&self, family: &Neighbourhood<'_, (BondLength<T>, (T, T)), D>) -> CoreResult<T> {
+    fn node_const(
+        &self,
+        family: &Neighbourhood<'_, (BondLength<T>, (T, T)), D>,
+    ) -> CoreResult<(T, ())> {
         let m = family.sum(|m| m.bond.1.0.to_f64() * m.xi.norm_squared());
-        weighted_volume(m, family.node, self.dimension == D).map(|m| T::of(1.0 / m))
+        weighted_volume(m, family.node, self.dimension == D).map(|m| (T::of(1.0 / m), ()))
     }
     #[inline(always)]
     fn add(&self, sum: &mut T, e: T, k: &(T, T), volume: T) {
         *sum += k.1 * e * volume;
     }
     #[inline(always)]
-    fn close(&self, sum: &T, inverse_m: &T) -> T {
+    fn close(&self, sum: &T, inverse_m: &T, (): &()) -> T {
         T::of(D as f64) * *inverse_m * *inverse_m * *sum
     }
     #[inline(always)]
@@ -173,6 +177,7 @@ impl<T: Real, const D: usize> ScalarState<T, D> for MadenciOterkus {
     /// (d δ/|ξ|, 2 b δ/|ξ|).
     type BondConst = (T, T);
     type NodeConst = ();
+    type FamilyConst = ();
     /// θ.
     type FamilySum = T;
     /// 2aθ.
@@ -186,15 +191,18 @@ impl<T: Real, const D: usize> ScalarState<T, D> for MadenciOterkus {
         let r = scale.horizon / xi.norm();
         (T::of(d * r), T::of(2.0 * b * r))
     }
-    fn node_const(&self, family: &Neighbourhood<'_, (BondLength<T>, (T, T)), D>) -> CoreResult<()> {
-        weighted_volume(1.0, family.node, self.dimension == D).map(|_| ())
+    fn node_const(
+        &self,
+        family: &Neighbourhood<'_, (BondLength<T>, (T, T)), D>,
+    ) -> CoreResult<((), ())> {
+        weighted_volume(1.0, family.node, self.dimension == D).map(|_| ((), ()))
     }
     #[inline(always)]
     fn add(&self, sum: &mut T, e: T, k: &(T, T), volume: T) {
         *sum += k.0 * e * volume;
     }
     #[inline(always)]
-    fn close(&self, sum: &T, (): &()) -> T {
+    fn close(&self, sum: &T, (): &(), (): &()) -> T {
         T::of(2.0 * self.a()) * *sum
     }
     #[inline(always)]

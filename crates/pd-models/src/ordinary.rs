@@ -15,8 +15,10 @@ use pd_core::{Real, Result};
 pub trait ScalarState<T: Real, const D: usize>: Send + Sync {
     /// Constants of a bond besides its length.
     type BondConst: Copy + Send + Sync;
-    /// Constants of a node.
+    /// Constants of a node that the force knows.
     type NodeConst: Record<T>;
+    /// Constants of a node that only its state is made from.
+    type FamilyConst: Record<T>;
     /// Running sum over the family.
     type FamilySum: Record<T>;
     /// State of a node.
@@ -33,7 +35,7 @@ pub trait ScalarState<T: Real, const D: usize>: Send + Sync {
     fn node_const(
         &self,
         family: &Neighbourhood<'_, (BondLength<T>, Self::BondConst), D>,
-    ) -> Result<Self::NodeConst> {
+    ) -> Result<(Self::NodeConst, Self::FamilyConst)> {
         let _ = family;
         Ok(Record::zero())
     }
@@ -44,8 +46,13 @@ pub trait ScalarState<T: Real, const D: usize>: Send + Sync {
     }
     /// State of a node.
     #[inline(always)]
-    fn close(&self, sum: &Self::FamilySum, constants: &Self::NodeConst) -> Self::NodeState {
-        let _ = (sum, constants);
+    fn close(
+        &self,
+        sum: &Self::FamilySum,
+        constants: &Self::NodeConst,
+        family: &Self::FamilyConst,
+    ) -> Self::NodeState {
+        let _ = (sum, constants, family);
         Record::zero()
     }
     /// Scalar force state t of a bond with extension `e`.
@@ -88,6 +95,7 @@ where
 {
     type BondConst = (BondLength<T>, S::BondConst);
     type NodeConst = S::NodeConst;
+    type FamilyConst = S::FamilyConst;
     type FamilySum = S::FamilySum;
     type NodeState = S::NodeState;
 
@@ -100,7 +108,7 @@ where
     fn node_const(
         &self,
         family: &Neighbourhood<'_, Self::BondConst, D>,
-    ) -> Result<Self::NodeConst> {
+    ) -> Result<(Self::NodeConst, Self::FamilyConst)> {
         self.model.node_const(family)
     }
     #[inline(always)]
@@ -118,9 +126,10 @@ where
         &self,
         sum: &S::FamilySum,
         constants: &S::NodeConst,
+        family: &S::FamilyConst,
         _: &S::NodeState,
     ) -> S::NodeState {
-        self.model.close(sum, constants)
+        self.model.close(sum, constants, family)
     }
     #[inline(always)]
     fn force_state(

@@ -50,6 +50,7 @@ where
     type BondConst = [M::BondConst; R];
     /// The region and the constants of the node's material.
     type NodeConst = (T, M::NodeConst);
+    type FamilyConst = M::FamilyConst;
     type FamilySum = M::FamilySum;
     type NodeState = M::NodeState;
     const FOLLOWS_DAMAGE: bool = M::FOLLOWS_DAMAGE;
@@ -67,7 +68,7 @@ where
     fn node_const(
         &self,
         family: &Neighbourhood<'_, Self::BondConst, D>,
-    ) -> CoreResult<Self::NodeConst> {
+    ) -> CoreResult<(Self::NodeConst, M::FamilyConst)> {
         let r = self.of_node(family.node);
         let members: Vec<Member<M::BondConst, D>> = family
             .members
@@ -75,7 +76,8 @@ where
             .map(|m| Member { xi: m.xi, volume: m.volume, bond: m.bond[r] })
             .collect();
         let own = Neighbourhood { node: family.node, scale: family.scale, members: &members };
-        Ok((T::of(r as f64), self.materials[r].node_const(&own)?))
+        let (constants, of_family) = self.materials[r].node_const(&own)?;
+        Ok(((T::of(r as f64), constants), of_family))
     }
     #[inline(always)]
     fn add_bond(
@@ -93,9 +95,10 @@ where
         &self,
         sum: &M::FamilySum,
         (tag, constants): &Self::NodeConst,
+        family: &M::FamilyConst,
         previous: &M::NodeState,
     ) -> M::NodeState {
-        self.material(*tag).1.node_state(sum, constants, previous)
+        self.material(*tag).1.node_state(sum, constants, family, previous)
     }
     #[inline(always)]
     fn force_state(
