@@ -3,8 +3,9 @@
 use crate::bond::{Bond, End, Neighbourhood};
 use crate::damage::{Check, DamagePolicy};
 use crate::family::{BondKernel, Family, Pair, Tally, Visit};
+use crate::field::Field;
 use crate::material::{Material, StrainEnergy, StressState};
-use crate::record::{Field, Record};
+use crate::record::Record;
 use crate::{Error, Real, Result};
 use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;

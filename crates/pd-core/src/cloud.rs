@@ -6,9 +6,10 @@
 
 use crate::bond::{Bond, Member, Scale};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
+use crate::field::{Field, Inputs};
 use crate::points::Points;
 use crate::quadrature::Quadrature;
-use crate::record::{Field, Inputs, Record};
+use crate::record::Record;
 use crate::search::neighbours;
 use crate::{Error, Real, Result};
 use nalgebra::SVector;

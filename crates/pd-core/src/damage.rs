@@ -3,8 +3,9 @@
 use crate::bond::{Bond, End, Scale};
 use crate::crack::CrackSurface;
 use crate::family::{BondTest, Family, Pair, Tally};
+use crate::field::{Field, map_sites};
 use crate::material::Material;
-use crate::record::{Field, Record, map_sites};
+use crate::record::Record;
 use crate::{Error, Real, Result};
 use nalgebra::SVector;
 

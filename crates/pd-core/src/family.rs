@@ -5,7 +5,8 @@
 //! [`Family::break_bonds`], so there is one loop per layout and one definition per material.
 
 use crate::bond::{Bond, Member, Scale};
-use crate::record::{Field, Inputs, Record};
+use crate::field::{Field, Inputs};
+use crate::record::Record;
 use crate::{Real, Result};
 use nalgebra::SVector;
 

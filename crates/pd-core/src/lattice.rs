@@ -7,10 +7,10 @@
 
 use crate::bond::{Bond, Member, Scale};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
+use crate::field::{Field, Inputs, Planes};
 use crate::grid::Grid;
-use crate::planes::Planes;
 use crate::quadrature::Quadrature;
-use crate::record::{Field, Inputs, LANES, Record};
+use crate::record::{LANES, Record};
 use crate::{Error, Real, Result};
 use multiversion::multiversion;
 use nalgebra::SVector;
@@ -397,6 +397,9 @@ where
     let half = lattice.half();
     let mut broken = 0;
     let mut worst = [T::zero(); LANES];
+    // Kept in memory: the optimiser vectorises towards eight numbers stored side by side.
+    let mut index = [T::zero(); LANES];
+    let index = std::hint::black_box(&mut index);
     for (b, bytes) in bytes.chunks_exact_mut(half).enumerate() {
         let block = first + b;
         if lattice.present[block] == 0 {
@@ -414,19 +417,23 @@ where
             let far = job.u.block(beyond);
             let other_block = job.input.block(beyond);
             let pair = Pair { constants: [k, k], volumes: [T::one(); 2] };
-            let mut index = [T::zero(); LANES];
-            for l in 0..LANES {
+            *index = std::array::from_fn(|l| {
                 let bond = Bond { xi: offset.xi, eta: relative(&near, &far, l) };
                 let (own, other) = (I::lane(&own_block, l), I::lane(&other_block, l));
-                let value = job.test.index(&bond, pair, [&own, &other]);
-                index[l] = if *byte >> l & 1 == 1 { value } else { T::zero() };
+                job.test.index(&bond, pair, [&own, &other])
+            });
+            if *byte != 0xff {
+                for l in 0..LANES {
+                    index[l] = if *byte >> l & 1 == 1 { index[l] } else { T::zero() };
+                }
             }
-            let mut fails = 0_u8;
+            let mut fail = false;
             for l in 0..LANES {
                 worst[l] = if index[l] > worst[l] { index[l] } else { worst[l] };
-                fails |= u8::from(index[l] > T::one()) << l;
+                fail |= index[l] > T::one();
             }
-            if fails != 0 {
+            if fail {
+                let fails = (0..LANES).fold(0_u8, |f, l| f | u8::from(index[l] > T::one()) << l);
                 *byte &= !fails;
                 broken += fails.count_ones() as usize;
                 job.full[block].store(0, Relaxed);

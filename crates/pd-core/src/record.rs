@@ -1,11 +1,11 @@
-//! Fixed-size groups of scalars, and node arrays of them as planes (structure of arrays).
+//! Fixed-size groups of scalars: what a node carries.
 //!
 //! A node state may be a scalar, a vector, a matrix, a pair of those or nothing. Stored as one
-//! plane per scalar, eight consecutive nodes are eight consecutive numbers, which is what lets
-//! plain scalar material code vectorise over nodes.
+//! plane per scalar ([`Field`](crate::field::Field)), eight consecutive nodes are eight consecutive
+//! numbers, which is what lets plain scalar material code vectorise over nodes.
 
 use crate::Real;
-use crate::planes::Planes;
+use crate::field::Planes;
 use nalgebra::SMatrix;
 
 /// Number of consecutive nodes that a lattice kernel handles together.
@@ -271,144 +271,4 @@ impl<T: Real, A: Record<T>, B: Record<T>> Record<T> for (A, B) {
         self.0.write(&mut planes.0, i);
         self.1.write(&mut planes.1, i);
     }
-}
-
-/// A node array of records: planes of `stride` numbers, one plane per scalar of `R`.
-#[derive(Debug, Clone)]
-pub struct Field<T, R> {
-    data: Vec<T>,
-    stride: usize,
-    record: std::marker::PhantomData<R>,
-}
-
-impl<T: Real, R: Record<T>> Field<T, R> {
-    /// `len` zero records. A record of no scalars allocates nothing.
-    pub fn zeros(len: usize) -> Self {
-        Self { data: vec![T::zero(); R::LEN * len], stride: len, record: std::marker::PhantomData }
-    }
-    /// Number of records.
-    pub fn len(&self) -> usize {
-        self.stride
-    }
-    /// True for a field of no records.
-    pub fn is_empty(&self) -> bool {
-        self.stride == 0
-    }
-    /// Record `i`.
-    #[inline(always)]
-    pub fn get(&self, i: usize) -> R {
-        R::load(&self.data, self.stride, i)
-    }
-    /// Overwrites record `i`.
-    #[inline(always)]
-    pub fn set(&mut self, i: usize, value: R) {
-        value.write(&mut R::planes_mut(&mut self.data, self.stride), i);
-    }
-    /// All scalars, plane after plane.
-    pub fn as_slice(&self) -> &[T] {
-        &self.data
-    }
-    /// All scalars, plane after plane.
-    pub fn as_mut_slice(&mut self) -> &mut [T] {
-        &mut self.data
-    }
-    /// Bytes held.
-    pub fn bytes(&self) -> usize {
-        self.data.capacity() * size_of::<T>()
-    }
-    /// Writable planes.
-    pub(crate) fn planes_mut(&mut self) -> R::PlanesMut<'_> {
-        R::planes_mut(&mut self.data, self.stride)
-    }
-}
-
-/// What a kernel reads at a node: a field, a pair of inputs, or nothing.
-pub trait Inputs<T: Real>: Copy + Send + Sync {
-    /// The value at one node.
-    type Value: Copy;
-    /// [`LANES`] consecutive nodes.
-    type Block: Copy;
-    /// The nodes `start .. start + LANES`.
-    fn block(&self, start: usize) -> Self::Block;
-    /// Node `lane` of a block.
-    fn lane(block: &Self::Block, lane: usize) -> Self::Value;
-    /// Node `i`.
-    fn load(&self, i: usize) -> Self::Value;
-}
-
-impl<'a, T: Real, R: Record<T>> Inputs<T> for &'a Field<T, R> {
-    type Value = R;
-    type Block = Planes<'a, T>;
-    #[inline(always)]
-    fn block(&self, start: usize) -> Planes<'a, T> {
-        Planes::new(&self.data, self.stride, start, R::LEN)
-    }
-    #[inline(always)]
-    fn lane(block: &Planes<'a, T>, lane: usize) -> R {
-        R::lane(block, 0, lane)
-    }
-    #[inline(always)]
-    fn load(&self, i: usize) -> R {
-        self.get(i)
-    }
-}
-
-impl<T: Real> Inputs<T> for () {
-    type Value = ();
-    type Block = ();
-    #[inline(always)]
-    fn block(&self, _: usize) {}
-    #[inline(always)]
-    fn lane((): &(), _: usize) {}
-    #[inline(always)]
-    fn load(&self, _: usize) {}
-}
-
-impl<T: Real, A: Inputs<T>, B: Inputs<T>> Inputs<T> for (A, B) {
-    type Value = (A::Value, B::Value);
-    type Block = (A::Block, B::Block);
-    #[inline(always)]
-    fn block(&self, start: usize) -> Self::Block {
-        (self.0.block(start), self.1.block(start))
-    }
-    #[inline(always)]
-    fn lane(block: &Self::Block, lane: usize) -> Self::Value {
-        (A::lane(&block.0, lane), B::lane(&block.1, lane))
-    }
-    #[inline(always)]
-    fn load(&self, i: usize) -> Self::Value {
-        (self.0.load(i), self.1.load(i))
-    }
-}
-
-/// Sites that one task of [`map_sites`] works on.
-const MAP_CHUNK: usize = 4096;
-
-/// `out[i] = f(input[i], out[i])` at every site, in parallel.
-pub(crate) fn map_sites<T: Real, I: Inputs<T>, R: Record<T>>(
-    input: I,
-    out: &mut Field<T, R>,
-    f: impl Fn(I::Value, R) -> R + Sync,
-) {
-    fn range<T: Real, I: Inputs<T>, R: Record<T>>(
-        input: I,
-        sites: std::ops::Range<usize>,
-        mut out: R::PlanesMut<'_>,
-        f: &(impl Fn(I::Value, R) -> R + Sync),
-    ) {
-        if sites.len() > MAP_CHUNK {
-            let mid = sites.len() / 2;
-            let (low, high) = R::split(out, mid);
-            let (a, b) = (sites.start..sites.start + mid, sites.start + mid..sites.end);
-            rayon::join(|| range(input, a, low, f), || range(input, b, high, f));
-        } else {
-            let first = sites.start;
-            for site in sites {
-                let previous = R::read(&out, site - first);
-                f(input.load(site), previous).write(&mut out, site - first);
-            }
-        }
-    }
-    let len = out.len();
-    range(input, 0..len, out.planes_mut(), &f);
 }
