@@ -12,7 +12,7 @@ fn check<T, const D: usize, M>(
     group: &str,
     crack: &(impl CrackSurface<D> + Clone + 'static),
     material: impl Fn() -> M,
-    extra: impl Fn(&str, &dyn Fn(usize) -> (M::NodeConst, M::NodeState)),
+    extra: impl Fn(&str, &dyn Fn(usize) -> (M::NodeConst, M::FamilyConst, M::NodeState)),
 ) where
     T: Real,
     M: StrainEnergy<T, D>,
@@ -47,7 +47,7 @@ fn check<T, const D: usize, M>(
     compare("cloud", &f, "force_density");
     compare("cloud", &w, "energy_density");
     compare("cloud", &[e], "total_energy");
-    extra("cloud", &|i| (body.constants(i), body.state(i)));
+    extra("cloud", &|i| (body.constants(i), body.family_constants(i), body.state(i)));
     if let Some(grid) = case.grid::<D>() {
         let lattice = Lattice::<T, D>::new(&grid, case.horizon(), quadrature).expect("family");
         let mut body = Body::new(lattice, material(), policy()).expect("body");
@@ -55,7 +55,7 @@ fn check<T, const D: usize, M>(
         compare("lattice", &f, "force_density");
         compare("lattice", &w, "energy_density");
         compare("lattice", &[e], "total_energy");
-        extra("lattice", &|i| (body.constants(i), body.state(i)));
+        extra("lattice", &|i| (body.constants(i), body.family_constants(i), body.state(i)));
     }
 }
 
@@ -195,7 +195,7 @@ fn correspondence<T, const D: usize, L>(
         let mut fields: Vec<(&str, Vec<f64>)> =
             vec![("F", vec![]), ("stress", vec![]), ("B", vec![]), ("first_pk", vec![])];
         for i in 0..count {
-            let ((b, ()), (_, h)) = node(i);
+            let ((), b, (_, h)) = node(i);
             let f = h + SMatrix::identity();
             fields[0].1.extend(rows(&f));
             fields[1].1.extend(rows(&law.cauchy(&h)));
@@ -265,7 +265,7 @@ fn node_fields_of_ordinary_models() {
         || Ordinary::linearised(model()),
         |_, node| {
             let n = case.positions::<3>().len();
-            let theta: Vec<f64> = (0..n).map(node).map(|(c, s)| s / c).collect();
+            let theta: Vec<f64> = (0..n).map(node).map(|(c, (), s)| s / c).collect();
             let m: Vec<f64> = (0..n).map(|i| case.number("dx").powi(5) / node(i).0).collect();
             assert!(relative_difference(&theta, &case.result("linear_small", "theta")) < 1e-12);
             assert!(relative_difference(&m, &case.result("linear_small", "m")) < 1e-12);

@@ -233,7 +233,9 @@ where
             worst: 0.0,
         };
         body.set_node_constants()?;
-        if let Some(bits) = &mut body.bits {
+        if P::ACTIVE {
+            body.isolate_detached()?;
+        } else if let Some(bits) = &mut body.bits {
             F::clear_marks(bits);
         }
         Ok(body)
@@ -276,6 +278,18 @@ where
             self.family_const.set(site, own);
         }
         Ok(())
+    }
+
+    /// Nodes that the cracks, or the outline, leave without a shape tensor lose their bonds.
+    fn isolate_detached(&mut self) -> Result<()> {
+        if let (true, Some(bits)) = (M::FOLLOWS_DAMAGE, &mut self.bits) {
+            for node in 0..self.family.nodes() {
+                if self.material.detached(&self.family_const.get(self.family.site(node))) {
+                    self.family.isolate(bits, node);
+                }
+            }
+        }
+        self.follow_damage().map(|_| ())
     }
 
     /// Number of nodes.
@@ -424,32 +438,45 @@ where
         }
         Ok(())
     }
-    /// Node constants and states of the nodes that lost a bond.
-    fn follow_damage(&mut self) -> Result<()> {
-        let Some(bits) = self.bits.take() else { return Ok(()) };
-        let mut result = Ok(());
-        if M::FOLLOWS_DAMAGE {
-            let Self { family, material, table, node_const, family_const, .. } = self;
-            let mut members = Vec::new();
-            family.marked(&bits, &mut |node| {
-                family.members(node, table, Some(&bits), &mut members);
+    /// Node constants and states of the nodes that lost a bond. Nodes that are detached by it lose
+    /// their other bonds too; returns how many.
+    fn follow_damage(&mut self) -> Result<usize> {
+        let Some(mut bits) = self.bits.take() else { return Ok(0) };
+        let lost = if M::FOLLOWS_DAMAGE { self.follow_constants(&mut bits) } else { Ok(0) };
+        self.bits = Some(bits);
+        let lost = lost?;
+        self.update_states(Visit::Marked);
+        if let Some(bits) = &mut self.bits {
+            F::clear_marks(bits);
+        }
+        Ok(lost)
+    }
+    fn follow_constants(&mut self, bits: &mut F::Bits) -> Result<usize> {
+        let Self { family, material, table, node_const, family_const, .. } = self;
+        let (mut members, mut total) = (Vec::new(), 0);
+        loop {
+            let (mut detached, mut result) = (Vec::new(), Ok(()));
+            family.marked(bits, &mut |node| {
+                family.members(node, table, Some(bits), &mut members);
                 let scale = family.scale(node);
                 match material.node_const(&Neighbourhood { node, scale, members: &members }) {
                     Ok((value, own)) => {
+                        if material.detached(&own) {
+                            detached.push(node);
+                        }
                         node_const.set(family.site(node), value);
                         family_const.set(family.site(node), own);
                     }
                     Err(error) => result = Err(error),
                 }
             });
+            result?;
+            let lost: usize = detached.iter().map(|&node| family.isolate(bits, node)).sum();
+            if lost == 0 {
+                return Ok(total);
+            }
+            total += lost;
         }
-        self.bits = Some(bits);
-        result?;
-        self.update_states(Visit::Marked);
-        if let Some(bits) = &mut self.bits {
-            F::clear_marks(bits);
-        }
-        Ok(())
     }
     /// Cuts every bond that crosses `crack`, now; returns how many were intact.
     ///
@@ -461,8 +488,7 @@ where
         let positions = (0..family.nodes()).map(|node| family.position(node));
         crate::crack::check_clear(crack, positions, family.unit())?;
         let count = family.cut(bits, &|a, b| crack.cuts(&family.position(a), &family.position(b)));
-        self.follow_damage()?;
-        Ok(count)
+        Ok(count + self.follow_damage()?)
     }
 }
 
@@ -758,8 +784,8 @@ where
             }
             self.worst = self.worst.max(tally.worst);
             if tally.broken > 0 {
+                tally.broken += self.follow_damage()?;
                 self.broken += tally.broken;
-                self.follow_damage()?;
                 events.after(self, tally);
             }
         }

@@ -65,6 +65,10 @@ impl CloudBits {
     fn intact(&self, node: usize, at: usize) -> bool {
         self.bytes[self.row[node] + at / 8] >> (at % 8) & 1 == 1
     }
+    fn lose(&mut self, node: usize, at: usize) {
+        self.bytes[self.row[node] + at / 8] &= !(1 << (at % 8));
+        *self.marks[node].get_mut() = 1;
+    }
 }
 
 fn snapped(x: f64, size: f64) -> f64 {
@@ -318,10 +322,22 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
             for (at, entry) in self.row(node).iter().enumerate() {
                 let other = entry.neighbour as usize;
                 if bits.intact(node, at) && cuts(node.min(other), node.max(other)) {
-                    bits.bytes[bits.row[node] + at / 8] &= !(1 << (at % 8));
-                    *bits.marks[node].get_mut() = 1;
+                    bits.lose(node, at);
                     count += usize::from(node < other);
                 }
+            }
+        }
+        count
+    }
+    fn isolate(&self, bits: &mut CloudBits, node: usize) -> usize {
+        let mut count = 0;
+        for (at, entry) in self.row(node).iter().enumerate() {
+            let other = entry.neighbour as usize;
+            let back = self.row(other).binary_search_by_key(&(node as u32), |e| e.neighbour);
+            if bits.intact(node, at) {
+                count += 1;
+                bits.lose(node, at);
+                back.iter().for_each(|&back| bits.lose(other, back));
             }
         }
         count

@@ -232,7 +232,7 @@ impl<C, const D: usize> Breaking<C, D> {
     }
 }
 
-/// Adapter: a criterion as a test of bonds. Detached nodes lose their bonds.
+/// Adapter: a criterion as a test of bonds.
 struct CriterionTest<'a, C, M> {
     criterion: &'a C,
     material: &'a M,
@@ -268,12 +268,7 @@ where
             constants: [&c0.0, &c1.0],
             values: [&c0.1, &c1.1],
         };
-        let index = self.criterion.index(&tested);
-        if self.material.detached(&m0.0) || self.material.detached(&m1.0) {
-            T::of(2.0)
-        } else {
-            index
-        }
+        self.criterion.index(&tested)
     }
 }
 

@@ -147,6 +147,8 @@ pub trait Family<T: Real, const D: usize>: Send + Sync + Sized {
     fn bits_bytes(bits: &Self::Bits) -> usize;
     /// Cuts every bond for which `cuts(node, neighbour)` (node < neighbour) holds; returns how many.
     fn cut(&self, bits: &mut Self::Bits, cuts: &(dyn Fn(usize, usize) -> bool + Sync)) -> usize;
+    /// Cuts every bond of `node`; returns how many were intact.
+    fn isolate(&self, bits: &mut Self::Bits, node: usize) -> usize;
     /// Takes the marks of nodes that lost a bond since the last call: calls `visit` with each node
     /// in ascending order. The marks stay until [`Family::clear_marks`].
     fn marked(&self, bits: &Self::Bits, visit: &mut dyn FnMut(usize));

@@ -218,6 +218,19 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         };
         ((owner / LANES) * half + h, owner % LANES)
     }
+    /// Clears the bit of a bond and marks its ends; true if it was intact.
+    fn lose(&self, bits: &mut LatticeBits, site: usize, offset: usize) -> bool {
+        let (byte, bit) = self.bit_of(site, offset);
+        let intact = bits.bytes[byte] >> bit & 1 == 1;
+        bits.bytes[byte] &= !(1 << bit);
+        if intact {
+            for s in [site, site.wrapping_add_signed(self.offsets[offset].site)] {
+                bits.full[s / LANES].store(0, Relaxed);
+                bits.marks[s / LANES].fetch_or(1 << (s % LANES), Relaxed);
+            }
+        }
+        intact
+    }
     #[inline(always)]
     fn intact_byte(&self, bits: &LatticeBits, block: usize, offset: usize) -> u8 {
         let half = bits.half;
@@ -527,19 +540,20 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
                 let step = self.offsets[o].cell;
                 let to = std::array::from_fn(|d| cell[d] as isize + step[d]);
                 if self.node_at(to).is_some_and(|other| cuts(node, other)) {
-                    let site = self.site(node);
-                    let other = site.wrapping_add_signed(self.offsets[o].site);
-                    let (byte, bit) = self.bit_of(site, o);
-                    count += usize::from(bits.bytes[byte] >> bit & 1);
-                    bits.bytes[byte] &= !(1 << bit);
-                    for s in [site, other] {
-                        bits.full[s / LANES].store(0, Relaxed);
-                        bits.marks[s / LANES].fetch_or(1 << (s % LANES), Relaxed);
-                    }
+                    count += usize::from(self.lose(bits, self.site(node), o));
                 }
             }
         }
         count
+    }
+    fn isolate(&self, bits: &mut LatticeBits, node: usize) -> usize {
+        let (cell, site) = (self.grid.cell(node), self.site(node));
+        let there = |step: &[isize; D]| {
+            self.node_at(std::array::from_fn(|d| cell[d] as isize + step[d])).is_some()
+        };
+        (0..self.offsets.len())
+            .filter(|&o| there(&self.offsets[o].cell) && self.lose(bits, site, o))
+            .count()
     }
     fn marked(&self, bits: &LatticeBits, visit: &mut dyn FnMut(usize)) {
         for (block, mark) in bits.marks.iter().enumerate() {

@@ -96,8 +96,8 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
 
     /// True if the node has lost its shape tensor: it carries no stress and its bonds break.
     #[inline(always)]
-    fn detached(&self, constants: &Self::NodeConst) -> bool {
-        let _ = constants;
+    fn detached(&self, family: &Self::FamilyConst) -> bool {
+        let _ = family;
         false
     }
 
@@ -206,8 +206,8 @@ impl<T: Real, const D: usize, M: Material<T, D>> Material<T, D> for &M {
         (**self).pair_force(bond, ends)
     }
     #[inline(always)]
-    fn detached(&self, constants: &Self::NodeConst) -> bool {
-        (**self).detached(constants)
+    fn detached(&self, family: &Self::FamilyConst) -> bool {
+        (**self).detached(family)
     }
     #[inline(always)]
     fn fault(&self, state: &Self::NodeState) -> Option<f64> {

@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, SMatrix};
 pub enum IllConditioned {
     /// The run ends with [`Error::SingularShapeTensor`].
     Refuse,
-    /// The node is detached: it carries no stress and its bonds break at the next test.
+    /// The node is detached: it carries no stress and its bonds break.
     #[default]
     Detach,
     /// B is the inverse on the well-conditioned directions only.

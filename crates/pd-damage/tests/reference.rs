@@ -19,6 +19,7 @@ struct Nothing;
 impl Material<f64, 3> for Nothing {
     type BondConst = ();
     type NodeConst = ();
+    type FamilyConst = ();
     type FamilySum = ();
     type NodeState = ();
     fn density(&self, _: usize) -> f64 {

@@ -317,8 +317,8 @@ where
 {
     /// ω.
     type BondConst = T;
-    /// 1 (0 for a detached node), and what the control needs.
-    type NodeConst = (T, Z::NodeConst);
+    /// What the control needs.
+    type NodeConst = Z::NodeConst;
     /// B.
     type FamilyConst = SMatrix<T, D, D>;
     /// Σ μ ω η⊗ξ βV.
@@ -342,9 +342,8 @@ where
         let weighted = family.members.iter().filter(|m| m.bond > T::zero()).count();
         let b = self.shape.invert(&k, family.node, weighted)?;
         let omega_sum = family.sum(|m| m.bond.to_f64());
-        let attached = if b.trace() == 0.0 { T::zero() } else { T::one() };
         let control = self.control.node_const(&b, omega_sum, family.scale);
-        Ok(((attached, control), b.map(T::of)))
+        Ok((control, b.map(T::of)))
     }
     #[inline(always)]
     fn add_bond(
@@ -359,7 +358,7 @@ where
     fn node_state(
         &self,
         sum: &SMatrix<T, D, D>,
-        (_, c): &Self::NodeConst,
+        c: &Self::NodeConst,
         b: &SMatrix<T, D, D>,
         _: &Self::NodeState,
     ) -> Self::NodeState {
@@ -373,11 +372,11 @@ where
         end: End<'_, T, T, Self::NodeConst, Self::NodeState>,
     ) -> SVector<T, D> {
         let (a, _) = end.state;
-        (a * bond.xi + self.control.stiffness_times(&end.node.1, &bond.eta)) * *end.bond
+        (a * bond.xi + self.control.stiffness_times(end.node, &bond.eta)) * *end.bond
     }
     #[inline(always)]
-    fn detached(&self, (attached, _): &Self::NodeConst) -> bool {
-        *attached == T::zero()
+    fn detached(&self, b: &Self::FamilyConst) -> bool {
+        b.trace() == T::zero()
     }
     fn fault(&self, (_, h): &Self::NodeState) -> Option<f64> {
         let j = determinant(&(h + SMatrix::identity())).to_f64();
@@ -414,6 +413,6 @@ where
         end: End<'_, T, T, Self::NodeConst, Self::NodeState>,
     ) -> T {
         let z = bond.eta - end.state.1 * bond.xi;
-        T::of(0.5) * *end.bond * self.control.stiffness_times(&end.node.1, &z).dot(&z)
+        T::of(0.5) * *end.bond * self.control.stiffness_times(end.node, &z).dot(&z)
     }
 }

@@ -111,8 +111,8 @@ where
         material.force_state(bond, End { bond: &end.bond[r], node: &end.node.1, state, volume })
     }
     #[inline(always)]
-    fn detached(&self, (tag, constants): &Self::NodeConst) -> bool {
-        self.material(*tag).1.detached(constants)
+    fn detached(&self, family: &M::FamilyConst) -> bool {
+        self.materials[0].detached(family)
     }
     fn fault(&self, state: &M::NodeState) -> Option<f64> {
         self.materials[0].fault(state)
