@@ -305,6 +305,39 @@ fn add_lanes<'a, T, const D: usize, Kn, I, J>(
     }
 }
 
+/// The sum of lane `l` of a block from the bonds that are there, none of the others touched.
+#[cold]
+#[inline(never)]
+fn add_one_by_one<T, const D: usize, Kn, I, J>(
+    job: &Job<'_, T, D, Kn, I, J>,
+    block: usize,
+    l: usize,
+) -> Kn::Sum
+where
+    T: Real,
+    Kn: BondKernel<T, D>,
+    I: Inputs<T, Value = Kn::Node>,
+    J: Inputs<T, Value = Kn::Own>,
+{
+    let lattice = job.lattice;
+    let site = block * LANES + l;
+    let mut sum = Kn::Sum::zero();
+    for (o, (offset, k)) in lattice.offsets.iter().zip(job.table).enumerate() {
+        let there = match job.bits {
+            Some(bits) => lattice.intact_byte(bits, block, o),
+            None => lattice.present_byte(block, o),
+        };
+        if there >> l & 1 == 1 {
+            let other = site.wrapping_add_signed(offset.site);
+            let bond = Bond { xi: offset.xi, eta: job.u.get(other) - job.u.get(site) };
+            let pair = Pair { constants: [k, k], volumes: [offset.volume; 2] };
+            let nodes = [&job.input.load(site), &job.input.load(other)];
+            job.kernel.add(&mut sum, &bond, pair, nodes);
+        }
+    }
+    sum
+}
+
 #[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
 fn sweep_chunk<T, const D: usize, Kn, I, J>(
     job: &Job<'_, T, D, Kn, I, J>,
@@ -353,7 +386,11 @@ fn sweep_chunk<T, const D: usize, Kn, I, J>(
         for l in (0..LANES).filter(|l| mask >> l & 1 == 1) {
             let at = (block - first) * LANES + l;
             let previous = <Kn::Out as Record<T>>::read(&out, at);
-            let sum = <Kn::Sum as Record<T>>::get(&sums, l);
+            let mut sum = <Kn::Sum as Record<T>>::get(&sums, l);
+            if !sum.is_finite() {
+                // A force law may overflow on a bond that broke long ago, and 0 · ∞ is NaN.
+                sum = add_one_by_one(job, block, l);
+            }
             let (node, own) = (I::lane(&own_block, l), job.own.load(start + l));
             job.kernel.close(&sum, &node, &own, previous).write(&mut out, at);
         }

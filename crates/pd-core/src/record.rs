@@ -28,6 +28,8 @@ pub trait Record<T: Real>: Copy + Send + Sync + 'static {
     fn get(lanes: &Self::Lanes, lane: usize) -> Self;
     /// Overwrites record `lane` of a running sum.
     fn put(self, lanes: &mut Self::Lanes, lane: usize);
+    /// False if a scalar is NaN or infinite.
+    fn is_finite(&self) -> bool;
     /// `a` where `on`, else `b`: a blend, not a branch.
     fn select(on: bool, a: Self, b: Self) -> Self;
     /// Splits `data` (planes of length `stride`, one after the other) into planes.
@@ -67,6 +69,10 @@ impl<T: Real> Record<T> for T {
     #[inline(always)]
     fn put(self, lanes: &mut [T; LANES], lane: usize) {
         lanes[lane] = self;
+    }
+    #[inline(always)]
+    fn is_finite(&self) -> bool {
+        nalgebra::ComplexField::is_finite(self)
     }
     #[inline(always)]
     fn select(on: bool, a: T, b: T) -> T {
@@ -115,6 +121,10 @@ impl<T: Real> Record<T> for () {
     #[inline(always)]
     fn put(self, (): &mut (), _: usize) {}
     #[inline(always)]
+    fn is_finite(&self) -> bool {
+        true
+    }
+    #[inline(always)]
     fn select(_: bool, (): (), (): ()) {}
     #[inline(always)]
     fn planes_mut(_: &mut [T], _: usize) -> Self::PlanesMut<'_> {}
@@ -156,6 +166,10 @@ impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
                 lanes[c][r][lane] = self[(r, c)];
             }
         }
+    }
+    #[inline(always)]
+    fn is_finite(&self) -> bool {
+        self.iter().all(Record::is_finite)
     }
     #[inline(always)]
     fn select(on: bool, a: Self, b: Self) -> Self {
@@ -234,6 +248,10 @@ impl<T: Real, A: Record<T>, B: Record<T>> Record<T> for (A, B) {
     fn put(self, lanes: &mut Self::Lanes, lane: usize) {
         self.0.put(&mut lanes.0, lane);
         self.1.put(&mut lanes.1, lane);
+    }
+    #[inline(always)]
+    fn is_finite(&self) -> bool {
+        self.0.is_finite() && self.1.is_finite()
     }
     #[inline(always)]
     fn select(on: bool, a: Self, b: Self) -> Self {
