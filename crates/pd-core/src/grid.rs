@@ -211,6 +211,7 @@ impl NodeSet {
     /// [`Error::InvalidValue`] for an index out of range.
     pub fn from_nodes(nodes: impl IntoIterator<Item = usize>, total: usize) -> Result<Self> {
         let mut set = Vec::new();
+        let total = total.min(NONE as usize);
         for node in nodes {
             Error::check(node < total, "node index", node as f64, "below the number of nodes")?;
             set.push(node as u32);
