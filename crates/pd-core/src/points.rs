@@ -3,6 +3,7 @@
 use crate::grid::{Grid, NodeSet};
 use crate::{Error, Result};
 use nalgebra::SVector;
+use std::cmp::Ordering;
 
 /// Nodes at given places with given volumes (areas in 2D, per unit thickness).
 #[derive(Debug, Clone)]
@@ -35,10 +36,10 @@ impl<const D: usize> Points<D> {
             Error::positive("volume of a node [m^D]", v)?;
         }
         let mut order: Vec<usize> = (0..n).collect();
-        let key = |i: usize| positions[i];
+        // Not `total_cmp`, which would part −0 from 0; there is no NaN left.
         order.sort_by(|&a, &b| {
-            let by_axis = (0..D).map(|d| key(a)[d].total_cmp(&key(b)[d]));
-            by_axis.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then)
+            let (a, b) = (positions[a].as_slice(), positions[b].as_slice());
+            a.partial_cmp(b).unwrap_or(Ordering::Equal)
         });
         if let Some(pair) = order.windows(2).find(|w| positions[w[0]] == positions[w[1]]) {
             return Err(Error::CoincidentNodes {
