@@ -59,3 +59,26 @@ fn same_bits_for_every_thread_count() {
         assert!(run(cloud(), threads) == (reference.clone(), broken), "cloud, {threads}");
     }
 }
+
+/// Two nodes without neighbours, the last of the first half and the first of the second: another
+/// thread comes to the second long before the first is reached. The error is about the first.
+#[test]
+fn same_error_for_every_thread_count() {
+    let (half, dx) = (3000, 1e-3);
+    let far = |i: usize| if i == half - 1 || i == half { 1e3 * i as f64 } else { 0.0 };
+    let place = |i: usize| [(i % 60) as f64 * dx, (i / 60) as f64 * dx + far(i)].into();
+    let positions = (0..2 * half).map(place).collect();
+    let points = Points::new(positions, vec![dx * dx; 2 * half]).expect("points");
+    for threads in [1, 2, 3, 5, 8].repeat(4) {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
+        let error = pool.install(|| {
+            let family = Cloud::<f64, 2>::new(&points, Horizon::Cells(3.0), Quadrature::None);
+            let law = LinearElastic(common::ply());
+            let material = Correspondence::new(law, 1586.0, InfluenceFunction::Linear);
+            let body = Body::new(family.expect("family"), material.expect("material"), NoDamage);
+            body.err().expect("refused")
+        });
+        let Error::EmptyFamily { node, .. } = error else { panic!("{error}") };
+        assert_eq!(node, half - 1, "{threads} threads");
+    }
+}

@@ -257,7 +257,7 @@ where
         // break later: only for a material that follows damage.
         let live =
             if M::FOLLOWS_DAMAGE || policy.cracks().leave_family { bits.as_ref() } else { None };
-        let constants: Result<Vec<(M::NodeConst, M::FamilyConst)>> = (0..family.nodes())
+        let constants: Vec<Result<(M::NodeConst, M::FamilyConst)>> = (0..family.nodes())
             .into_par_iter()
             .map_init(Vec::new, |members, node| {
                 family.members(node, table, None, members);
@@ -272,7 +272,9 @@ where
                 material.node_const(&Neighbourhood { node, scale: family.scale(node), members })
             })
             .collect();
-        for (node, (value, own)) in constants?.into_iter().enumerate() {
+        // Collecting into one result in parallel would keep the error that came first in time.
+        let constants = constants.into_iter().collect::<Result<Vec<_>>>()?;
+        for (node, (value, own)) in constants.into_iter().enumerate() {
             let site = self.family.site(node);
             self.node_const.set(site, value);
             self.family_const.set(site, own);

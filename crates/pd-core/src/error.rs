@@ -17,6 +17,18 @@ pub enum Error {
         /// The admissible range.
         need: &'static str,
     },
+    /// A number belonging to a node is outside its admissible range.
+    #[error("{what} of node {node} is {value}, but must be {need}")]
+    InvalidNodeValue {
+        /// The node.
+        node: usize,
+        /// The quantity, with its symbol.
+        what: &'static str,
+        /// The value given.
+        value: f64,
+        /// The admissible range.
+        need: &'static str,
+    },
     /// No cell centre lies in the shape.
     #[error("no cell centre lies in the shape with a spacing of {spacing:?} m: use a finer one")]
     EmptyGrid {
@@ -24,7 +36,7 @@ pub enum Error {
         spacing: Vec<f64>,
     },
     /// A node set selects nothing.
-    #[error("node set '{name}' has no nodes: check its predicate against the grid's extent")]
+    #[error("node set '{name}' has no nodes: compare its place with the positions of the nodes")]
     EmptySet {
         /// Name of the set.
         name: String,
@@ -45,6 +57,25 @@ pub enum Error {
         /// Where, in metres.
         position: Vec<f64>,
     },
+    /// The vertices of a crack polygon are not in one plane.
+    #[error(
+        "vertex {vertex} of the crack is {distance:e} m off its mean plane (at most {tolerance:e} \
+         m): use several plane polygons"
+    )]
+    NotPlanar {
+        /// The vertex, from 0.
+        vertex: usize,
+        /// Its distance from the plane, in metres.
+        distance: f64,
+        /// The largest distance accepted, in metres.
+        tolerance: f64,
+    },
+    /// The outline of a crack polygon crosses or touches itself.
+    #[error("edges {} and {} of the crack polygon meet: use several simple polygons", edges[0], edges[1])]
+    EdgesMeet {
+        /// The edges, by the number of their first vertex.
+        edges: [usize; 2],
+    },
     /// A crack passes through a node.
     #[error(
         "the crack passes through node {node} at {position:?} m, so its side would be chance: shift \
@@ -55,7 +86,7 @@ pub enum Error {
         node: usize,
         /// Its position in metres.
         position: Vec<f64>,
-        /// A shift that avoids it, in metres.
+        /// The shift along its normal that keeps the crack furthest from all nodes, in metres.
         shift: Vec<f64>,
     },
     /// A node has no neighbour within its horizon.

@@ -1,6 +1,6 @@
 //! Uniform grids with inactive cells, and sets of nodes.
 
-use crate::region::Shape;
+use crate::region::{Shape, holds};
 use crate::{Error, Result};
 use nalgebra::SVector;
 use std::collections::BTreeMap;
@@ -10,6 +10,9 @@ const NONE: u32 = u32::MAX;
 
 /// A uniform grid of cells; nodes sit at the centres of its active cells, in lexicographic order
 /// with x fastest. In 2D volumes are areas (per unit thickness).
+///
+/// A centre within 1e-9 Δx of a [`Shape`]'s boundary is in the shape, on the outer edge as on the
+/// edge of a hole, however its coordinates are rounded. Predicates are taken at their word.
 #[derive(Debug, Clone)]
 pub struct Grid<const D: usize> {
     /// Centre of the first cell.
@@ -31,7 +34,7 @@ impl<const D: usize> Grid<D> {
     /// # Errors
     /// [`Error::InvalidValue`] for a spacing that is not positive, bounds that are not finite or
     /// more than 2³² cells; [`Error::EmptyGrid`] if no centre is in the shape.
-    pub fn new(shape: &impl Shape<D>, spacing: f64) -> Result<Self> {
+    pub fn new(shape: &(impl Shape<D> + ?Sized), spacing: f64) -> Result<Self> {
         Self::with_spacing(shape, [spacing; D])
     }
 
@@ -39,7 +42,7 @@ impl<const D: usize> Grid<D> {
     ///
     /// # Errors
     /// As [`Grid::new`].
-    pub fn with_spacing(shape: &impl Shape<D>, spacing: [f64; D]) -> Result<Self> {
+    pub fn with_spacing(shape: &(impl Shape<D> + ?Sized), spacing: [f64; D]) -> Result<Self> {
         let (low, high) = shape.bounds();
         let mut cells = [0; D];
         for d in 0..D {
@@ -48,7 +51,7 @@ impl<const D: usize> Grid<D> {
             cells[d] = ((extent / spacing[d]).round() as usize).max(1);
         }
         let spacing = SVector::from(spacing);
-        Self::lattice(low + spacing * 0.5, spacing, cells)?.retain(|x| shape.contains(x))
+        Self::lattice(low + spacing * 0.5, spacing, cells)?.retain(|x| holds(shape, x, &spacing))
     }
 
     /// A full box of cells from the centre of the first cell.
@@ -104,16 +107,20 @@ impl<const D: usize> Grid<D> {
         Ok(Self { cell_of, node_of, regions, ..self })
     }
 
-    /// Gives the nodes in `shape` to material region `region` (0 elsewhere): inclusions.
-    pub fn mark(mut self, region: u8, shape: &impl Shape<D>) -> Self {
-        let inside = self.select_in(shape);
+    /// Gives the nodes in `shape` to material region `region` (0 elsewhere): inclusions. Later
+    /// marks override earlier ones.
+    ///
+    /// # Errors
+    /// [`Error::EmptySet`] if no node is in the shape.
+    pub fn mark(mut self, region: u8, shape: &(impl Shape<D> + ?Sized)) -> Result<Self> {
+        let inside = self.select_in(shape).non_empty(&format!("region {region}"))?;
         if self.regions.is_empty() {
             self.regions = vec![0; self.len()];
         }
         for node in inside.iter() {
             self.regions[node] = region;
         }
-        self
+        Ok(self)
     }
 
     fn cell_index(&self, node: usize) -> usize {
@@ -169,7 +176,7 @@ impl<const D: usize> Grid<D> {
         SVector::from_fn(|d, _| self.origin[d] + cell[d] as f64 * self.spacing[d])
     }
     /// Positions of all nodes in metres.
-    pub fn positions(&self) -> impl Iterator<Item = SVector<f64, D>> + '_ {
+    pub fn positions(&self) -> impl Iterator<Item = SVector<f64, D>> + Clone + '_ {
         (0..self.len()).map(|node| self.position(node))
     }
     /// The node nearest to a point.
@@ -190,9 +197,9 @@ impl<const D: usize> Grid<D> {
         let chosen = (0..self.len()).filter(|&node| inside(&self.position(node)));
         NodeSet(chosen.map(|node| node as u32).collect())
     }
-    /// The nodes in a shape.
-    pub fn select_in(&self, shape: &impl Shape<D>) -> NodeSet {
-        self.select(|x| shape.contains(x))
+    /// The nodes in a shape, its boundary included.
+    pub fn select_in(&self, shape: &(impl Shape<D> + ?Sized)) -> NodeSet {
+        self.select(|x| holds(shape, x, &self.spacing))
     }
     /// Bytes held.
     pub fn bytes(&self) -> usize {
@@ -211,6 +218,7 @@ impl NodeSet {
     /// [`Error::InvalidValue`] for an index out of range.
     pub fn from_nodes(nodes: impl IntoIterator<Item = usize>, total: usize) -> Result<Self> {
         let mut set = Vec::new();
+        let total = total.min(NONE as usize);
         for node in nodes {
             Error::check(node < total, "node index", node as f64, "below the number of nodes")?;
             set.push(node as u32);

@@ -3,6 +3,7 @@
 use crate::grid::{Grid, NodeSet};
 use crate::{Error, Result};
 use nalgebra::SVector;
+use std::cmp::Ordering;
 
 /// Nodes at given places with given volumes (areas in 2D, per unit thickness).
 #[derive(Debug, Clone)]
@@ -17,8 +18,9 @@ impl<const D: usize> Points<D> {
     /// median volume; see [`with_spacing`](Self::with_spacing).
     ///
     /// # Errors
-    /// [`Error::InvalidValue`] for no nodes, lists of different length, a coordinate that is not
-    /// finite or a volume that is not positive; [`Error::CoincidentNodes`].
+    /// [`Error::InvalidValue`] for no nodes or lists of different length;
+    /// [`Error::InvalidNodeValue`] for a coordinate that is not finite or a volume that is not
+    /// finite and positive; [`Error::CoincidentNodes`] for two nodes at the same place.
     pub fn new(positions: Vec<SVector<f64, D>>, volumes: Vec<f64>) -> Result<Self> {
         let n = positions.len();
         Error::check(n > 0, "number of nodes", 0.0, "at least 1")?;
@@ -28,17 +30,21 @@ impl<const D: usize> Points<D> {
             volumes.len() as f64,
             "the number of positions",
         )?;
-        for x in positions.iter().flat_map(|x| x.iter()) {
-            Error::check(x.is_finite(), "coordinate of a node [m]", *x, "finite")?;
-        }
-        for &v in &volumes {
-            Error::positive("volume of a node [m^D]", v)?;
+        for (node, (x, &volume)) in positions.iter().zip(&volumes).enumerate() {
+            let check = |ok: bool, what, value, need| {
+                if ok { Ok(()) } else { Err(Error::InvalidNodeValue { node, what, value, need }) }
+            };
+            for &c in x {
+                check(c.is_finite(), "coordinate [m]", c, "finite")?;
+            }
+            let positive = volume.is_finite() && volume > 0.0;
+            check(positive, "volume V [m^D]", volume, "finite and positive")?;
         }
         let mut order: Vec<usize> = (0..n).collect();
-        let key = |i: usize| positions[i];
+        // Not `total_cmp`, which would part −0 from 0; there is no NaN left.
         order.sort_by(|&a, &b| {
-            let by_axis = (0..D).map(|d| key(a)[d].total_cmp(&key(b)[d]));
-            by_axis.fold(std::cmp::Ordering::Equal, std::cmp::Ordering::then)
+            let (a, b) = (positions[a].as_slice(), positions[b].as_slice());
+            a.partial_cmp(b).unwrap_or(Ordering::Equal)
         });
         if let Some(pair) = order.windows(2).find(|w| positions[w[0]] == positions[w[1]]) {
             return Err(Error::CoincidentNodes {

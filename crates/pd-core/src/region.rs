@@ -3,7 +3,10 @@
 use crate::{Error, Result};
 use nalgebra::SVector;
 
-/// A region of space.
+/// Distance, as a share of the spacing, within which a cell centre counts as on a boundary.
+const ON_BOUNDARY: f64 = 1e-9;
+
+/// A region of space. Combinators nest, `plate.without(hole).union(tab)`, and box, for many holes.
 pub trait Shape<const D: usize>: Send + Sync {
     /// True if the point (metres) lies inside or on the boundary.
     fn contains(&self, x: &SVector<f64, D>) -> bool;
@@ -40,6 +43,29 @@ impl<const D: usize, S: Shape<D> + ?Sized> Shape<D> for &S {
     fn bounds(&self) -> (SVector<f64, D>, SVector<f64, D>) {
         (**self).bounds()
     }
+}
+
+impl<const D: usize, S: Shape<D> + ?Sized> Shape<D> for Box<S> {
+    fn contains(&self, x: &SVector<f64, D>) -> bool {
+        (**self).contains(x)
+    }
+    fn bounds(&self) -> (SVector<f64, D>, SVector<f64, D>) {
+        (**self).bounds()
+    }
+}
+
+/// [`Shape::contains`] where rounding does not decide: a point is in if it, or a point displaced
+/// from it by ±1e-9 Δx along any of the axes, is.
+pub(crate) fn holds<const D: usize>(
+    shape: &(impl Shape<D> + ?Sized),
+    x: &SVector<f64, D>,
+    spacing: &SVector<f64, D>,
+) -> bool {
+    (0..3usize.pow(D as u32)).any(|code| {
+        let step = |axis| [0.0, 1.0, -1.0][code / 3usize.pow(axis as u32) % 3];
+        let nudge = SVector::from_fn(|axis, _| step(axis) * ON_BOUNDARY * spacing[axis]);
+        shape.contains(&(x + nudge))
+    })
 }
 
 /// See [`Shape::union`].

@@ -2,7 +2,7 @@
 
 use crate::bond::Neighbourhood;
 use crate::{Error, Result};
-use nalgebra::{Matrix3, SMatrix};
+use nalgebra::{Matrix3, SMatrix, SVector};
 
 /// What happens to a node whose shape tensor is too badly conditioned to be inverted, as after
 /// the loss of all but fewer than D independent bonds (errata 000-7: any collinear family).
@@ -47,55 +47,50 @@ impl ShapePolicy {
     /// B = K⁻¹; zero for a node that is to be detached.
     ///
     /// # Errors
-    /// [`Error::SingularShapeTensor`] under [`IllConditioned::Refuse`].
+    /// [`Error::SingularShapeTensor`] under [`IllConditioned::Refuse`]; [`Error::InvalidNodeValue`]
+    /// for a K that is not finite, as with a weight that is not.
     pub fn invert<const D: usize>(
         &self,
         k: &SMatrix<f64, D, D>,
         node: usize,
         neighbours: usize,
     ) -> Result<SMatrix<f64, D, D>> {
-        // One fixed size serves 2D and 3D: unused axes get the eigenvalue −1, which no shape
-        // tensor has.
         let scale = k.trace();
-        if scale.is_nan() || scale <= 0.0 {
-            return match self.rule {
-                IllConditioned::Refuse => Err(Error::SingularShapeTensor {
-                    node,
-                    condition: f64::INFINITY,
-                    limit: self.limit,
-                    neighbours,
-                }),
-                _ => Ok(SMatrix::zeros()),
-            };
+        if !scale.is_finite() {
+            let (what, need) = ("trace of the shape tensor K", "finite: check the weights ω");
+            return Err(Error::InvalidNodeValue { node, what, value: scale, need });
         }
+        // One fixed size serves 2D and 3D: unused axes get the eigenvalue −1, which no shape
+        // tensor has. Without a bond K stays zero.
+        let unit = if scale > 0.0 { scale } else { 1.0 };
         let embedded = Matrix3::from_fn(|i, j| match (i < D && j < D, i == j) {
-            (true, _) => k[(i, j)] / scale,
+            (true, _) => k[(i, j)] / unit,
             (false, true) => -1.0,
             (false, false) => 0.0,
         });
         let eigen = embedded.symmetric_eigen();
-        let used = |a: usize| eigen.eigenvalues[a] > -0.5;
+        let used = (0..3).filter(|&a| eigen.eigenvalues[a] > -0.5);
         let largest = eigen.eigenvalues.max();
-        let smallest =
-            (0..3).filter(|&a| used(a)).map(|a| eigen.eigenvalues[a]).fold(f64::INFINITY, f64::min);
-        let condition = if smallest > 0.0 { largest / smallest } else { f64::INFINITY };
-        let inverse = |keep: &dyn Fn(f64) -> bool| {
-            let mut b = SMatrix::<f64, D, D>::zeros();
-            for a in (0..3).filter(|&a| used(a) && keep(eigen.eigenvalues[a])) {
-                let axis = nalgebra::SVector::<f64, D>::from_fn(|d, _| eigen.eigenvectors[(d, a)]);
-                b += axis * axis.transpose() / (eigen.eigenvalues[a] * scale);
-            }
-            b
+        let condition_of = |a: usize| match eigen.eigenvalues[a] {
+            value if value > 0.0 => largest / value,
+            _ => f64::INFINITY,
         };
-        if condition <= self.limit {
-            return Ok(k.try_inverse().unwrap_or_else(|| inverse(&|_| true)));
-        }
-        match self.rule {
-            IllConditioned::Refuse => {
-                Err(Error::SingularShapeTensor { node, condition, limit: self.limit, neighbours })
+        let condition = used.clone().map(condition_of).fold(0.0, f64::max);
+        // A direction without bonds has no inverse even where no limit is set.
+        let limit = self.limit.min(f64::MAX);
+        if condition > limit {
+            match self.rule {
+                IllConditioned::Refuse => {
+                    return Err(Error::SingularShapeTensor { node, condition, limit, neighbours });
+                }
+                IllConditioned::Detach => return Ok(SMatrix::zeros()),
+                IllConditioned::PseudoInverse => {}
             }
-            IllConditioned::Detach => Ok(SMatrix::zeros()),
-            IllConditioned::PseudoInverse => Ok(inverse(&|value| value * self.limit >= largest)),
         }
+        // By eigenvectors, not cofactors, which lose twice as many digits as K is ill-conditioned.
+        Ok(used.filter(|&a| condition_of(a) <= limit).fold(SMatrix::zeros(), |b, a| {
+            let axis = SVector::<f64, D>::from_fn(|d, _| eigen.eigenvectors[(d, a)]);
+            b + axis * axis.transpose() / (eigen.eigenvalues[a] * unit)
+        }))
     }
 }

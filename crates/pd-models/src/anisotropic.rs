@@ -2,6 +2,7 @@
 
 use crate::Result;
 use crate::elasticity::Stiffness;
+use crate::elasticity::voigt::voigt_direction;
 use crate::kinematics::BondLength;
 use crate::linear_solid::weighted_volume;
 use crate::ordinary::ScalarState;
@@ -276,16 +277,6 @@ fn embed<const V: usize>(a: &SMatrix<f64, V, V>, fill: f64) -> Matrix6<f64> {
         (true, _) => a[(i, j)],
         (false, true) => fill,
         (false, false) => 0.0,
-    })
-}
-
-/// v⟨n⟩ = (n_x², n_y², n_x n_y) in 2D, (n_x², n_y², n_z², n_y n_z, n_x n_z, n_x n_y) in 3D:
-/// n·ε·n = v·ε_voigt with engineering shears.
-fn voigt_direction<const D: usize, const V: usize>(n: &SVector<f64, D>) -> SVector<f64, V> {
-    SVector::from_fn(|r, _| match (D, r) {
-        (_, r) if r < D => n[r] * n[r],
-        (2, _) => n[0] * n[1],
-        (_, r) => n[(r - 2) % 3] * n[(r - 1) % 3],
     })
 }
 

@@ -1,6 +1,7 @@
 //! Non-ordinary correspondence (NOSB, Hattori §3.1): a classical constitutive law at every node.
 
 use crate::elasticity::Stiffness;
+use crate::elasticity::voigt::small_strain;
 use crate::{Error, Result};
 use nalgebra::{SMatrix, SVector};
 use pd_core::bond::{Bond, End, Neighbourhood, Scale};
@@ -76,7 +77,7 @@ pub struct LinearElastic<const D: usize>(pub Stiffness<D>);
 impl<T: Real, const D: usize> Constitutive<T, D> for LinearElastic<D> {
     #[inline(always)]
     fn stress(&self, h: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {
-        self.0.contract(&((h + h.transpose()) * T::of(0.5)))
+        self.0.contract(&small_strain(h))
     }
     #[inline(always)]
     fn cauchy(&self, h: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {

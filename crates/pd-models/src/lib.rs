@@ -16,7 +16,9 @@ pub use correspondence::{
     Constitutive, Correspondence, Hyperelastic, LinearElastic, NeoHookean, NoControl,
     SaintVenantKirchhoff, SillingControl, WanControl, ZeroEnergyControl,
 };
-pub use elasticity::{Isotropic, Lamina, Orthotropic, PlaneMode, Stiffness, TransverselyIsotropic};
+pub use elasticity::{
+    Isotropic, Lamina, Orthotropic, PlaneMode, Stiffness, TransverselyIsotropic, Wave,
+};
 pub use error::{Error, Result};
 pub use kinematics::{Finite, Kinematics, Linearised};
 pub use linear_solid::{LinearSolid, MadenciOterkus};

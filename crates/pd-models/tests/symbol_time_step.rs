@@ -23,7 +23,9 @@ fn delta_over_c_is_unsafe_for_bond_based_and_linear_solids() {
     for m in [2.0, 3.0, 3.015, 4.0] {
         let pmb = Ordinary::new(Pmb::plane(&third, mode, DENSITY, one).unwrap());
         let lps = Ordinary::new(LinearSolid::plane(&own, mode, DENSITY, one).unwrap());
-        let c = |moduli| Stiffness::<2>::isotropic(moduli, mode).unwrap().max_wave_speed(DENSITY);
+        let c = |moduli| {
+            Stiffness::<2>::isotropic(moduli, mode).unwrap().max_wave_speed(DENSITY).unwrap()
+        };
         for (name, symbol, speed) in [
             ("PMB", symbol::<2, _>(&pmb, m, Quadrature::None), c(&third)),
             ("LPS", symbol::<2, _>(&lps, m, Quadrature::None), c(&own)),

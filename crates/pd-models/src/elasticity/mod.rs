@@ -3,8 +3,11 @@
 //! Voigt order is xx, yy, xy in 2D and xx, yy, zz, yz, xz, xy in 3D, with engineering shear
 //! strains. Fibres at angle +θ are turned counter-clockwise from x (errata 000-13, 000-14).
 pub mod catalogue;
+mod engineering;
 mod moduli;
 mod stiffness;
+mod transform;
+pub mod voigt;
 mod waves;
 
 pub use moduli::{Isotropic, Lamina, Orthotropic, PlaneMode, TransverselyIsotropic};

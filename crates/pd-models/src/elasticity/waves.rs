@@ -1,81 +1,79 @@
 //! Plane waves of the classical continuum (Christoffel).
 
 use super::Stiffness;
+use crate::Result;
 use nalgebra::{Matrix3, SVector};
+use pd_core::Error;
 
 /// A plane wave: speed c in m/s and polarisation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wave<const D: usize> {
-    /// Phase speed in m/s.
+    /// Phase speed c in m/s.
     pub speed: f64,
-    /// Unit polarisation.
+    /// Unit polarisation (its sign is arbitrary).
     pub polarisation: SVector<f64, D>,
 }
 
 impl<const D: usize> Stiffness<D> {
-    /// The D waves along `direction`, fastest first: ρc²p = Γp with Γ_ik = C_ijkl n_j n_l.
-    pub fn waves(&self, direction: &SVector<f64, D>, density: f64) -> Vec<Wave<D>> {
-        let n = direction.normalize();
+    /// Eigenvalues ρc² and eigenvectors of Γ_ik = C_ijkl n_j n_l, largest first.
+    fn christoffel(&self, n: &SVector<f64, D>) -> [(f64, SVector<f64, D>); D] {
+        // One fixed size serves 2D and 3D: the axis that is not there gets a negative eigenvalue,
+        // which comes last because Γ is positive definite.
         let gamma = Matrix3::from_fn(|i, k| {
-            if i >= D || k >= D {
+            if i.max(k) >= D {
                 return if i == k { -1.0 } else { 0.0 };
             }
-            let mut sum = 0.0;
-            for j in 0..D {
-                for l in 0..D {
-                    sum += self.c(i, j, k, l) * n[j] * n[l];
-                }
-            }
-            sum
+            let row = |j: usize| -> f64 { (0..D).map(|l| self.c(i, j, k, l) * n[l]).sum() };
+            (0..D).map(|j| n[j] * row(j)).sum()
         });
         let eigen = gamma.symmetric_eigen();
-        let mut waves: Vec<Wave<D>> = (0..3)
-            .filter(|&a| eigen.eigenvalues[a] > 0.0)
-            .map(|a| Wave {
-                speed: (eigen.eigenvalues[a] / density).sqrt(),
-                polarisation: SVector::from_fn(|d, _| eigen.eigenvectors[(d, a)]),
-            })
-            .collect();
-        waves.sort_by(|a, b| b.speed.total_cmp(&a.speed));
-        waves
+        let mut order = [0, 1, 2];
+        order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+        std::array::from_fn(|a| {
+            let vector = SVector::from_fn(|d, _| eigen.eigenvectors[(d, order[a])]);
+            (eigen.eigenvalues[order[a]], vector)
+        })
     }
+
+    /// The D waves along `direction` (of any length) in a body of density ρ in kg/m³, fastest
+    /// first: ρc² p = Γ p with Γ_ik = C_ijkl n_j n_l.
+    ///
+    /// # Errors
+    /// A direction without a finite positive length, a density that is not finite and positive.
+    pub fn waves(&self, direction: &SVector<f64, D>, density: f64) -> Result<[Wave<D>; D]> {
+        Error::positive("density ρ [kg/m³]", density)?;
+        Error::positive("length of the wave's direction", direction.norm())?;
+        let modes = self.christoffel(&direction.normalize());
+        Ok(modes
+            .map(|(value, polarisation)| Wave { speed: (value / density).sqrt(), polarisation }))
+    }
+
     /// The fastest wave over all directions in m/s (errata 000-15: not √(C22/ρ)).
-    pub fn max_wave_speed(&self, density: f64) -> f64 {
-        let fastest = |n: &SVector<f64, D>| self.waves(n, density)[0].speed;
-        let mut best = (0.0, SVector::zeros());
-        let directions = 40;
-        for a in 0..2 * directions {
-            for b in 0..if D == 3 { directions } else { 1 } {
-                let t = std::f64::consts::PI * a as f64 / directions as f64;
-                let p = std::f64::consts::FRAC_PI_2 * (1.0 - b as f64 / directions as f64);
-                let p = if D == 3 { p } else { std::f64::consts::FRAC_PI_2 };
-                let n = SVector::from_fn(|d, _| match d {
-                    0 => p.sin() * t.cos(),
-                    1 => p.sin() * t.sin(),
-                    _ => p.cos(),
-                });
-                let speed = fastest(&n);
-                if speed > best.0 {
-                    best = (speed, n);
+    ///
+    /// # Errors
+    /// A density that is not finite and positive.
+    pub fn max_wave_speed(&self, density: f64) -> Result<f64> {
+        Error::positive("density ρ [kg/m³]", density)?;
+        // C_ijkl p_i n_j p_k n_l is the same with p and n exchanged, so the polarisation of the
+        // fastest wave along n is a direction with a wave at least as fast: climb from many.
+        let starts = 5_usize.pow(D as u32);
+        let climb = |start: usize| {
+            let digit = |d: usize| (start / 5_usize.pow(d as u32) % 5) as f64 - 2.0;
+            let n = SVector::<f64, D>::from_fn(|d, _| digit(d));
+            if start == starts / 2 {
+                return 0.0; // the zero vector
+            }
+            let (mut value, mut n) = self.christoffel(&n.normalize())[0];
+            for _ in 0..1000 {
+                let (higher, next) = self.christoffel(&n)[0];
+                let gain = higher - value;
+                (value, n) = (value.max(higher), next);
+                if gain <= 1e-15 * value {
+                    break;
                 }
             }
-        }
-        // Downhill steps from the best direction, halved until they gain nothing.
-        let mut step = 0.1;
-        while step > 1e-9 {
-            let moved = (0..2 * D)
-                .map(|k| {
-                    let mut n = best.1;
-                    n[k / 2] += if k % 2 == 0 { step } else { -step };
-                    (fastest(&n.normalize()), n.normalize())
-                })
-                .fold(best, |a, b| if b.0 > a.0 { b } else { a });
-            if moved.0 > best.0 {
-                best = moved;
-            } else {
-                step *= 0.5;
-            }
-        }
-        best.0
+            value
+        };
+        Ok(((0..starts).map(climb).fold(0.0, f64::max) / density).sqrt())
     }
 }
