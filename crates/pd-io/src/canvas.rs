@@ -66,8 +66,8 @@ impl Canvas {
             let steps = (x1 - x0).abs().max((y1 - y0).abs()).ceil().max(1.0) as i64;
             for k in 0..=steps {
                 let t = k as f64 / steps as f64;
-                let x = (x0 + t * (x1 - x0)).round() as i64;
-                let y = (y0 + t * (y1 - y0)).round() as i64;
+                let start = |a: f64, b: f64| (a + t * (b - a) - 0.5 * thick as f64).round() as i64;
+                let (x, y) = (start(x0, x1), start(y0, y1));
                 self.fill([x, x + thick], [y, y + thick], colour);
             }
         }
@@ -75,7 +75,7 @@ impl Canvas {
     /// The mark of a point.
     pub(crate) fn dot(&mut self, at: (f64, f64), colour: Colour) {
         let (x, y) = (at.0.round() as i64, at.1.round() as i64);
-        self.fill([x - 2, x + 4], [y - 2, y + 4], colour);
+        self.fill([x - 3, x + 3], [y - 3, y + 3], colour);
     }
     /// The names of a chart's curves, one below the other.
     pub(crate) fn legend<'a>(&mut self, x: i64, y: i64, names: impl Iterator<Item = &'a str>) {

@@ -67,7 +67,7 @@ impl PolarPlot {
             let (x, y) = (x.round() as i64, y.round() as i64);
             canvas.text(x - text_width(&label, 1) / 2, y - GLYPH / 2, 1, &label);
         }
-        let ticks = axis.ticks(4);
+        let ticks = axis.ticks(7);
         for (place, _) in &ticks {
             canvas.polyline(&circle(*place), 1, GREY);
         }

@@ -1,0 +1,57 @@
+//! A chart draws any finite data.
+mod common;
+
+use common::{EXTREME, FIRST, Image, folder};
+use pd_io::{LinePlot, PolarPlot};
+
+/// The first curve's pixels left of the legend; that they are there shows that nothing ran away.
+fn drawn(path: &std::path::Path) -> usize {
+    let image = Image::read(path);
+    let frame = (0..image.width).rev().find(|&x| image.at(x, 449) == [20, 20, 20]);
+    let right = frame.expect("frame") as f64;
+    image.places(FIRST).iter().filter(|(x, _)| *x < right).count()
+}
+
+#[test]
+fn linear_axes() {
+    let path = folder("linear").join("plot.png");
+    let values: Vec<f64> = EXTREME.iter().flat_map(|&v| [v, -v]).collect();
+    for (k, &a) in values.iter().enumerate() {
+        for &b in &values[k..] {
+            for points in [vec![(a, b), (b, a)], vec![(a, a), (0.5 * a, b), (b, b)], vec![(a, b)]] {
+                let plot = LinePlot::new("any range", "x", "y").line("data", &points);
+                plot.write(&path).expect("plot");
+                assert!(drawn(&path) >= 4, "{points:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn logarithmic_axes() {
+    let path = folder("logarithmic").join("plot.png");
+    let values: Vec<f64> = EXTREME.into_iter().filter(|&v| v > 0.0).collect();
+    for (k, &a) in values.iter().enumerate() {
+        for &b in &values[k..] {
+            for points in [vec![(a, b), (b, a)], vec![(a, a), (b, b)], vec![(a, b)]] {
+                let plot = LinePlot::new("any range", "x", "y").line("data", &points).log_log();
+                plot.write(&path).expect("plot");
+                assert!(drawn(&path) >= 4, "{points:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn polar_axes() {
+    let path = folder("polar-range").join("plot.png");
+    for r in EXTREME {
+        for angle in EXTREME {
+            let points = [(angle, r), (-angle, 0.5 * r), (0.0, r)];
+            PolarPlot::new("any range", "r").curve("data", &points).write(&path).expect("plot");
+            let image = Image::read(&path);
+            let inside = image.places(FIRST).iter().filter(|(x, _)| *x < 592.0).count();
+            assert!(inside >= 4, "{points:?}");
+        }
+    }
+}
