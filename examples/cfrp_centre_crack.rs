@@ -138,14 +138,14 @@ fn draw(body: &Plate, folder: &std::path::Path, dx: f64, name: &str, title: &str
     let places: Vec<_> =
         whole.iter().map(|&i| body.position(i) + SCALE * body.displacement(i)).collect();
     let damage: Vec<f64> = whole.iter().map(|&i| body.damage(i)).collect();
-    FieldMap::new(&places, 1.2 * dx, &damage)?
+    FieldMap::new(&places, 1.2 * dx, &damage)
         .title(&format!("{title}: damage (u x {SCALE})"))
         .range(0.0, 1.0)
         .colours(ColourMap::Damage)
         .size(900)
         .write(folder.join(format!("damage_{name}.png")))?;
     let speed: Vec<f64> = whole.iter().map(|&i| body.velocity(i)[1]).collect();
-    FieldMap::new(&places, 1.2 * dx, &speed)?
+    FieldMap::new(&places, 1.2 * dx, &speed)
         .title(&format!("{title}: v_y [m/s]"))
         .range(-30.0, 30.0)
         .colours(ColourMap::Diverging)

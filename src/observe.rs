@@ -113,10 +113,7 @@ impl<B> Observer<B> for Table<'_, B> {
 }
 
 /// Displacement, velocity and damage of a body, ready to be written.
-///
-/// # Errors
-/// Values that are not finite.
-pub fn snapshot<T, const D: usize, F, M, P>(body: &Body<T, D, F, M, P>) -> Result<Snapshot<D>>
+pub fn snapshot<T, const D: usize, F, M, P>(body: &Body<T, D, F, M, P>) -> Snapshot<D>
 where
     T: Real,
     F: Family<T, D>,
@@ -129,19 +126,15 @@ where
     };
     let damage: Vec<f64> = nodes.clone().map(|i| body.damage(i)).collect();
     Snapshot::new(&vectors(&|i| body.position(i)))
-        .and_then(|s| s.vector("displacement", &vectors(&|i| body.displacement(i))))
-        .and_then(|s| s.vector("velocity", &vectors(&|i| body.velocity(i))))
-        .and_then(|s| s.scalar("damage", &damage))
-        .map_err(output)
+        .vector("displacement", &vectors(&|i| body.displacement(i)))
+        .vector("velocity", &vectors(&|i| body.velocity(i)))
+        .scalar("damage", &damage)
 }
 
 /// As [`snapshot`], with the Cauchy stress.
-///
-/// # Errors
-/// As [`snapshot`].
 pub fn snapshot_with_stress<T, const D: usize, F, M, P>(
     body: &Body<T, D, F, M, P>,
-) -> Result<Snapshot<D>>
+) -> Snapshot<D>
 where
     T: Real,
     F: Family<T, D>,
@@ -149,13 +142,13 @@ where
     P: DamagePolicy<T, D, M>,
 {
     let stress: Vec<SMatrix<f64, D, D>> = (0..body.nodes()).map(|i| body.stress(i)).collect();
-    snapshot(body)?.tensor("stress", &stress).map_err(output)
+    snapshot(body).tensor("stress", &stress)
 }
 
 /// Writes a snapshot into a ParaView series at every call.
 pub struct FieldOutput<B, const D: usize> {
     series: Series,
-    take: fn(&B) -> Result<Snapshot<D>>,
+    take: fn(&B) -> Snapshot<D>,
 }
 
 impl<B, const D: usize> FieldOutput<B, D> {
@@ -163,11 +156,11 @@ impl<B, const D: usize> FieldOutput<B, D> {
     /// [`snapshot_with_stress`] or your own).
     ///
     /// # Errors
-    /// A folder that cannot be written.
+    /// A folder that cannot be written, a name that is empty or has a slash.
     pub fn create(
         folder: impl AsRef<Path>,
         name: &str,
-        take: fn(&B) -> Result<Snapshot<D>>,
+        take: fn(&B) -> Snapshot<D>,
     ) -> Result<Self> {
         Ok(Self { series: Series::create(folder, name).map_err(output)?, take })
     }
@@ -175,7 +168,7 @@ impl<B, const D: usize> FieldOutput<B, D> {
 
 impl<B, const D: usize> Observer<B> for FieldOutput<B, D> {
     fn observe(&mut self, view: &View<'_, B>) -> Result<Flow> {
-        let snapshot = (self.take)(view.body)?;
+        let snapshot = (self.take)(view.body);
         self.series.write(view.time, &snapshot).map_err(output)?;
         Ok(Flow::Continue)
     }

@@ -12,6 +12,18 @@ pub(crate) const GREY: Colour = [205, 205, 205];
 pub(crate) const WHITE: Colour = [255, 255, 255];
 /// Pixels of a glyph at scale 1.
 pub(crate) const GLYPH: i64 = 8;
+/// Colours of the curves of a chart, in turn.
+const CURVES: [Colour; 6] =
+    [[31, 90, 170], [205, 60, 40], [40, 140, 80], [130, 80, 170], [220, 140, 20], [90, 90, 90]];
+/// Width of the mark before a name of a legend.
+const LEGEND_MARK: i64 = 32;
+/// Height of a row of a legend.
+pub(crate) const LEGEND_ROW: i64 = 16;
+
+/// Colour of a chart's curve.
+pub(crate) fn curve_colour(k: usize) -> Colour {
+    CURVES[k % CURVES.len()]
+}
 
 pub(crate) struct Canvas {
     width: i64,
@@ -44,14 +56,33 @@ impl Canvas {
         self.fill([x[0], x[0] + 1], y, colour);
         self.fill([x[1] - 1, x[1]], y, colour);
     }
-    /// A line two pixels thick.
-    pub(crate) fn line(&mut self, from: (f64, f64), to: (f64, f64), colour: Colour) {
-        let steps = (to.0 - from.0).abs().max((to.1 - from.1).abs()).ceil().max(1.0) as i64;
-        for k in 0..=steps {
-            let t = k as f64 / steps as f64;
-            let x = (from.0 + t * (to.0 - from.0)).round() as i64;
-            let y = (from.1 + t * (to.1 - from.1)).round() as i64;
-            self.fill([x, x + 2], [y, y + 2], colour);
+    /// A line through points, `thick` pixels thick; a single point is a dot.
+    pub(crate) fn polyline(&mut self, points: &[(f64, f64)], thick: i64, colour: Colour) {
+        if let [only] = points {
+            self.dot(*only, colour);
+        }
+        for pair in points.windows(2) {
+            let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
+            let steps = (x1 - x0).abs().max((y1 - y0).abs()).ceil().max(1.0) as i64;
+            for k in 0..=steps {
+                let t = k as f64 / steps as f64;
+                let start = |a: f64, b: f64| (a + t * (b - a) - 0.5 * thick as f64).round() as i64;
+                let (x, y) = (start(x0, x1), start(y0, y1));
+                self.fill([x, x + thick], [y, y + thick], colour);
+            }
+        }
+    }
+    /// The mark of a point.
+    pub(crate) fn dot(&mut self, at: (f64, f64), colour: Colour) {
+        let (x, y) = (at.0.round() as i64, at.1.round() as i64);
+        self.fill([x - 3, x + 3], [y - 3, y + 3], colour);
+    }
+    /// The names of a chart's curves, one below the other.
+    pub(crate) fn legend<'a>(&mut self, x: i64, y: i64, names: impl Iterator<Item = &'a str>) {
+        for (k, name) in names.enumerate() {
+            let y = y + LEGEND_ROW * k as i64;
+            self.fill([x, x + 24], [y + 2, y + 5], curve_colour(k));
+            self.text(x + LEGEND_MARK, y, 1, name);
         }
     }
     /// Text with its upper left corner at (x, y).
@@ -89,30 +120,7 @@ pub(crate) fn text_width(text: &str, scale: i64) -> i64 {
     text.chars().count() as i64 * GLYPH * scale
 }
 
-/// A number in few characters.
-pub(crate) fn short(value: f64) -> String {
-    if value == 0.0 {
-        "0".to_owned()
-    } else if (1e-2..1e4).contains(&value.abs()) {
-        let digits = (2 - value.abs().log10().floor() as i32).clamp(0, 4) as usize;
-        let text = format!("{value:.digits$}");
-        if text.contains('.') {
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        } else {
-            text
-        }
-    } else {
-        format!("{value:.2e}")
-    }
-}
-
-/// Round numbers that divide a range into about `count` parts.
-pub(crate) fn ticks(low: f64, high: f64, count: usize) -> Vec<f64> {
-    let raw = (high - low) / count as f64;
-    let power = 10_f64.powf(raw.log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|s| s * power).find(|s| *s >= raw);
-    let step = step.unwrap_or(raw);
-    let first = (low / step - 1e-9).ceil() as i64;
-    let last = (high / step + 1e-9).floor() as i64;
-    (first..=last).map(|k| k as f64 * step).collect()
+/// Width of a legend with these names.
+pub(crate) fn legend_width<'a>(names: impl Iterator<Item = &'a str>) -> i64 {
+    names.map(|name| LEGEND_MARK + text_width(name, 1)).max().unwrap_or(0)
 }

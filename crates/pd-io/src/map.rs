@@ -1,7 +1,8 @@
 //! PNG maps of a nodal field on the (deformed) shape, with a colour bar.
 
-use crate::canvas::{BLACK, Canvas, Colour, GLYPH, GREY, short, text_width};
-use crate::error::{Error, Result, finite};
+use crate::axis::{Axis, extremes, safe_power};
+use crate::canvas::{BLACK, Canvas, Colour, GLYPH, GREY, text_width};
+use crate::error::{Error, Result, finite, one_per_node};
 use nalgebra::SVector;
 use std::path::Path;
 
@@ -11,9 +12,10 @@ pub enum ColourMap {
     /// Dark violet over green to yellow: the same steps in print and for the colour-blind.
     #[default]
     Viridis,
-    /// Blue (intact) to red (broken).
+    /// Blue (intact) to red (broken). Where nodes share a pixel it shows the largest value and not
+    /// the mean: a crack one node wide stays visible on a fine plate.
     Damage,
-    /// Blue, white, red: for fields with a sign.
+    /// Blue, white, red: for fields with a sign; white is 0 unless a range is given.
     Diverging,
 }
 
@@ -53,7 +55,10 @@ impl ColourMap {
     }
 }
 
-/// A map: every node is a square of its cell's size.
+/// A map: every node is a square of its cell's size. A pixel shows the mean over the nodes that
+/// share it, weighted by area (of [`ColourMap::Damage`] the largest value).
+///
+/// What it holds is checked when it is written, so that an error names the file.
 #[derive(Debug, Clone)]
 pub struct FieldMap {
     positions: Vec<SVector<f64, 2>>,
@@ -62,7 +67,7 @@ pub struct FieldMap {
     title: String,
     range: Option<(f64, f64)>,
     colours: ColourMap,
-    width: usize,
+    size: usize,
 }
 
 const MARGIN: i64 = 24;
@@ -70,35 +75,24 @@ const BAR: i64 = 22;
 
 impl FieldMap {
     /// Of these values at these (deformed) positions, with cells of edge `cell`, in metres.
-    ///
-    /// # Errors
-    /// [`Error::Length`], [`Error::NotFinite`], [`Error::Empty`].
-    pub fn new(positions: &[SVector<f64, 2>], cell: f64, values: &[f64]) -> Result<Self> {
-        let (given, nodes) = (values.len(), positions.len());
-        if given != nodes {
-            return Err(Error::Length { field: "map".to_owned(), given, nodes });
-        }
-        if nodes == 0 {
-            return Err(Error::Empty("map".to_owned()));
-        }
-        finite("map", values, 1)?;
-        finite("position", positions.iter().flat_map(|p| p.iter()), 2)?;
-        Ok(Self {
+    pub fn new(positions: &[SVector<f64, 2>], cell: f64, values: &[f64]) -> Self {
+        Self {
             positions: positions.to_vec(),
             cell,
             values: values.to_vec(),
             title: String::new(),
             range: None,
             colours: ColourMap::default(),
-            width: 640,
-        })
+            size: 640,
+        }
     }
     /// Title above the map.
     pub fn title(mut self, title: &str) -> Self {
         title.clone_into(&mut self.title);
         self
     }
-    /// Values of the ends of the colour bar (by default the extremes of the field).
+    /// Values of the ends of the colour bar (by default the extremes of the field, and of
+    /// [`ColourMap::Diverging`] ± the largest modulus).
     pub fn range(mut self, low: f64, high: f64) -> Self {
         self.range = Some((low, high));
         self
@@ -108,62 +102,158 @@ impl FieldMap {
         self.colours = colours;
         self
     }
-    /// Longer edge of the map itself in pixels.
+    /// Longer edge of the map itself in pixels, 64 to 8192.
     pub fn size(mut self, pixels: usize) -> Self {
-        self.width = pixels.max(64);
+        self.size = pixels.clamp(64, 8192);
         self
     }
     /// Writes the PNG.
     ///
     /// # Errors
-    /// [`Error::File`], [`Error::Png`].
+    /// [`Error::Empty`], [`Error::Length`], [`Error::NotFinite`], [`Error::Cell`],
+    /// [`Error::Range`], [`Error::File`], [`Error::Png`].
     pub fn write(&self, path: impl AsRef<Path>) -> Result<()> {
-        let half = SVector::<f64, 2>::repeat(0.5 * self.cell);
-        let (mut low, mut high) = (self.positions[0] - half, self.positions[0] + half);
-        for p in &self.positions {
-            low = low.inf(&(p - half));
-            high = high.sup(&(p + half));
-        }
-        let extent = high - low;
-        let scale = self.width as f64 / extent.max();
-        let (w, h) = ((extent.x * scale).ceil() as i64, (extent.y * scale).ceil() as i64);
-        let top = MARGIN + 3 * GLYPH;
-        let labels = 11 * GLYPH;
-        let total = (w + 3 * MARGIN + BAR + labels).max(2 * MARGIN + text_width(&self.title, 2));
-        let bar_height = h.max(160);
-        let mut canvas = Canvas::new(total, top + bar_height + MARGIN);
-        canvas.text(MARGIN, MARGIN - 10, 2, &self.title);
+        let path = path.as_ref();
+        self.check(path)?;
+        let axis = self.axis();
+        let raster = Raster::of(self, &axis);
+        let (w, h) = (raster.width as i64, raster.height as i64);
 
-        let span = |values: &[f64]| {
-            values
-                .iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)))
-        };
-        let (from, to) = self.range.unwrap_or_else(|| span(&self.values));
-        let to = if to > from { to } else { from + from.abs().max(1.0) * 1e-9 };
-        for (p, value) in self.positions.iter().zip(&self.values) {
-            let pixel = |x: f64| (x * scale).floor() as i64;
-            // One pixel of overlap: no seams where the cells move apart by less than that.
-            let x = [pixel(p.x - half.x - low.x), pixel(p.x + half.x - low.x) + 1];
-            let y = [pixel(high.y - p.y - half.y), pixel(high.y - p.y + half.y) + 1];
-            let place = |r: [i64; 2], by: i64, end: i64| [r[0] + by, r[1].min(end) + by];
-            let colour = self.colours.colour((value - from) / (to - from));
-            canvas.fill(place(x, MARGIN, w), place(y, top, h), colour);
+        let top = MARGIN + 3 * GLYPH;
+        let left = 2 * MARGIN + w;
+        let bar_height = h.max(160);
+        let labels = axis.quarters();
+        let widest = labels.iter().map(|(_, label)| text_width(label, 1)).max().unwrap_or(0);
+        let total = left + BAR + 9 + widest + MARGIN;
+        let mut canvas = Canvas::new(
+            total.max(2 * MARGIN + text_width(&self.title, 2)),
+            top + bar_height + MARGIN,
+        );
+        canvas.text(MARGIN, MARGIN - 10, 2, &self.title);
+        for (k, pixel) in raster.pixels.iter().enumerate() {
+            if let Some(place) = pixel.place() {
+                let (x, y) = (k as i64 % w, k as i64 / w);
+                canvas.put(MARGIN + x, top + y, self.colours.colour(place));
+            }
         }
         canvas.frame([MARGIN - 1, MARGIN + w + 1], [top - 1, top + h + 1], GREY);
 
-        let left = 2 * MARGIN + w;
         for row in 0..bar_height {
             let t = 1.0 - (row as f64 + 0.5) / bar_height as f64;
             canvas.fill([left, left + BAR], [top + row, top + row + 1], self.colours.colour(t));
         }
         canvas.frame([left, left + BAR], [top, top + bar_height], BLACK);
-        for k in 0..5 {
-            let t = f64::from(k) / 4.0;
-            let y = top + ((1.0 - t) * (bar_height - 1) as f64).round() as i64;
+        for (place, label) in labels {
+            let y = top + ((1.0 - place) * (bar_height - 1) as f64).round() as i64;
             canvas.fill([left + BAR, left + BAR + 5], [y, y + 1], BLACK);
-            canvas.text(left + BAR + 9, y - GLYPH / 2, 1, &short(from + t * (to - from)));
+            canvas.text(left + BAR + 9, y - GLYPH / 2, 1, &label);
         }
-        canvas.write(path.as_ref())
+        canvas.write(path)
     }
+    fn check(&self, path: &Path) -> Result<()> {
+        let nodes = self.positions.len();
+        if nodes == 0 {
+            return Err(Error::Empty { path: path.to_owned(), what: "node" });
+        }
+        let field = if self.title.is_empty() { "map" } else { &self.title };
+        one_per_node(path, field, self.values.len(), nodes)?;
+        finite(path, field, &self.values, 1)?;
+        finite(path, "position", self.positions.iter().flat_map(|p| p.iter()), 2)?;
+        if !(self.cell.is_finite() && self.cell > 0.0) {
+            return Err(Error::Cell { path: path.to_owned(), cell: self.cell });
+        }
+        match self.range {
+            Some((low, high)) if !(low.is_finite() && high.is_finite() && low < high) => {
+                Err(Error::Range { path: path.to_owned(), low, high })
+            }
+            _ => Ok(()),
+        }
+    }
+    fn axis(&self) -> Axis {
+        let (low, high) = self.range.unwrap_or_else(|| {
+            let (low, high) = extremes(self.values.iter().copied());
+            match self.colours {
+                ColourMap::Diverging => (-low.abs().max(high.abs()), low.abs().max(high.abs())),
+                ColourMap::Viridis | ColourMap::Damage => (low, high),
+            }
+        });
+        Axis::linear(low, high)
+    }
+}
+
+/// The pixels of a map.
+struct Raster {
+    width: usize,
+    height: usize,
+    pixels: Vec<Pixel>,
+}
+
+/// What the nodes of a pixel add up to.
+#[derive(Clone, Copy, Default)]
+struct Pixel {
+    /// Area that nodes cover.
+    area: f64,
+    /// Places on the colour bar times areas.
+    sum: f64,
+}
+
+impl Pixel {
+    fn place(self) -> Option<f64> {
+        (self.area > 0.0).then(|| self.sum / self.area)
+    }
+}
+
+impl Raster {
+    fn of(map: &FieldMap, axis: &Axis) -> Self {
+        let all = || map.positions.iter().flat_map(|p| p.iter());
+        let unit = 10_f64.powi(safe_power(all().fold(map.cell, |most, x| most.max(x.abs()))));
+        let cell = map.cell * unit;
+        let (left, right) = extremes(map.positions.iter().map(|p| p.x * unit));
+        let (bottom, top) = extremes(map.positions.iter().map(|p| p.y * unit));
+        let extent = [right - left + cell, top - bottom + cell];
+        let longer = extent[0].max(extent[1]).max(f64::MIN_POSITIVE);
+        let pixels = |length: f64| length / longer * map.size as f64;
+        let [width, height] = extent.map(|e| (pixels(e).ceil() as usize).max(1));
+        // A hundredth of a pixel at least: no node vanishes.
+        let edge = pixels(cell).max(0.01);
+
+        let mut raster = Self { width, height, pixels: vec![Pixel::default(); width * height] };
+        for (p, &value) in map.positions.iter().zip(&map.values) {
+            let x = shares(pixels(p.x * unit - left), edge, width);
+            let y = shares(pixels(top - p.y * unit), edge, height);
+            // Far outside the range all are the same colour; sums must stay finite.
+            let place = axis.place(value).clamp(-1e9, 1e9);
+            for (row, high) in y {
+                for (column, wide) in x.clone() {
+                    raster.add(row * width + column, wide * high, place, map.colours);
+                }
+            }
+        }
+        raster
+    }
+    fn add(&mut self, at: usize, area: f64, place: f64, colours: ColourMap) {
+        let pixel = &mut self.pixels[at];
+        match colours {
+            ColourMap::Damage => {
+                let largest = pixel.place().map_or(place, |before| before.max(place));
+                *pixel = Pixel { area: 1.0, sum: largest };
+            }
+            ColourMap::Viridis | ColourMap::Diverging => {
+                pixel.area += area;
+                pixel.sum += area * place;
+            }
+        }
+    }
+}
+
+/// Pixels of a row that a cell from `start` covers, each with the length covered. Every pixel it
+/// touches: no seams where cells move apart by less than one.
+fn shares(start: f64, edge: f64, pixels: usize) -> impl Iterator<Item = (usize, f64)> + Clone {
+    let start = start.min(pixels as f64 - edge);
+    let end = start + edge;
+    // What rounding pushes over a border is no part of the cell.
+    let least = 1e-6 * edge.min(1.0);
+    (start as usize..pixels.min(end as usize + 1))
+        .map(move |k| (k, end.min((k + 1) as f64) - start.max(k as f64)))
+        .filter(move |(_, length)| *length > least)
 }
