@@ -132,9 +132,7 @@ where
 }
 
 /// As [`snapshot`], with the Cauchy stress.
-pub fn snapshot_with_stress<T, const D: usize, F, M, P>(
-    body: &Body<T, D, F, M, P>,
-) -> Snapshot<D>
+pub fn snapshot_with_stress<T, const D: usize, F, M, P>(body: &Body<T, D, F, M, P>) -> Snapshot<D>
 where
     T: Real,
     F: Family<T, D>,
