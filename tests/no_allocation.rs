@@ -31,13 +31,13 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// Allocations of `steps` steps of a loaded run, after a few to warm up; bonds broken meanwhile.
+/// Allocations of 100 steps of a loaded run after 40 to warm up, and bonds broken meanwhile.
 fn allocations<F, M, P, I>(mut body: Body<f64, 2, F, M, P>, pull: f64, integrator: I) -> [usize; 2]
 where
     F: Family<f64, 2>,
     M: Material<f64, 2>,
     P: DamagePolicy<f64, 2, M>,
-    I: pd_core::Integrator<f64, 2>,
+    I: peridynamics::core::Integrator<f64, 2>,
 {
     body.set_velocity(|x| [0.0, pull * x[1]].into());
     let places: Vec<_> = (0..body.nodes()).map(|i| body.position(i)[1]).collect();
@@ -77,9 +77,8 @@ fn a_step_allocates_nothing() {
             || Ordinary::new(LinearSolid::plane(&third, stress, 1e3, common::OMEGA).expect("m"));
         let split =
             || Ordinary::new(PositiveSplit::plane(&common::ply(), 1e3, common::OMEGA).expect("m"));
-        let law = LinearElastic(common::ply());
         let nosb = || {
-            Correspondence::new(law, 1e3, InfluenceFunction::Linear)
+            Correspondence::new(LinearElastic(common::ply()), 1e3, InfluenceFunction::Linear)
                 .expect("m")
                 .with_control(SillingControl::new(4e9, 0.5).expect("control"))
         };
@@ -87,8 +86,9 @@ fn a_step_allocates_nothing() {
         let stretch =
             || Breaking::new(CriticalStretch::new(2e-3).expect("criterion")).precracked(crack());
         let strengths = Strengths { along: 1670e6, across: 60e6, shear: 70e6 };
-        let hill =
-            || Breaking::new(TsaiHill::new(&strengths, 0.6).expect("criterion")).precracked(crack());
+        let hill = || {
+            Breaking::new(TsaiHill::new(&strengths, 0.6).expect("criterion")).precracked(crack())
+        };
         macro_rules! check {
             ($($material:ident with $policy:expr, $breaks:literal;)*) => {$({
                 let body = || Body::new(lattice(), $material(), $policy).expect("body");

@@ -49,8 +49,7 @@ fn travels<const D: usize, M: Material<f64, D>>(
             let p = mode.polarisation * SIZE;
             body.set_displacement(|x| p * wave.dot(x).cos());
             body.set_velocity(|x| p * (wave.dot(x).sin() * turn.sin() / dt));
-            let mut run =
-                Run::new(&mut body, Loads::new(), TimeStep::Unchecked(dt)).expect("run");
+            let mut run = Run::new(&mut body, Loads::new(), TimeStep::Unchecked(dt)).expect("run");
             // Phase and amplitude of u·p in the patch, by least squares.
             let mut travelled = 0.0;
             for step in 1..=steps {
@@ -82,21 +81,17 @@ fn travels<const D: usize, M: Material<f64, D>>(
             );
         }
     }
-    println!("{name}: {waves} waves, speed within {:.0e}, amplitude within {:.0e}", worst.0, worst.1);
+    println!(
+        "{name}: {waves} waves, speed within {:.0e}, amplitude within {:.0e}",
+        worst.0, worst.1
+    );
     assert!(waves >= D * (phases.len() - 1), "{name}: only {waves} waves travel");
     assert!(worst.0 < tolerance && worst.1 < tolerance, "{name}: {worst:?}");
 }
 
 /// Along an axis, aslant and along the diagonal, from long waves to nearly the zone's corner.
-const PLANE: [[f64; 2]; 7] = [
-    [0.3, 0.0],
-    [1.5, 0.0],
-    [2.9, 0.0],
-    [0.4, 0.7],
-    [-1.2, 2.3],
-    [1.0, 1.0],
-    [3.0, 3.0],
-];
+const PLANE: [[f64; 2]; 7] =
+    [[0.3, 0.0], [1.5, 0.0], [2.9, 0.0], [0.4, 0.7], [-1.2, 2.3], [1.0, 1.0], [3.0, 3.0]];
 const SPACE: [[f64; 3]; 4] = [[0.4, 0.0, 0.0], [0.5, -0.9, 1.3], [2.8, 0.0, 1.0], [3.0, 3.0, 3.0]];
 const GAUSS: InfluenceFunction = InfluenceFunction::Gaussian;
 const RHO: f64 = 1586.0;

@@ -1,6 +1,6 @@
 //! A body: a family, a material, a damage policy, and the node arrays they need.
 
-use crate::bond::{Bond, End, Neighbourhood};
+use crate::bond::{Bond, End, Member, Neighbourhood};
 use crate::damage::{Check, DamagePolicy};
 use crate::family::{BondKernel, Family, Pair, Tally, Visit};
 use crate::field::Field;
@@ -40,6 +40,8 @@ where
     inverse_mass: InverseMass<T>,
     /// Volume of the reference families, where cut bonds have left them.
     reference_volume: Option<Vec<f64>>,
+    /// Members of one node: kept so that a step that breaks bonds does not allocate.
+    members: Vec<Member<M::BondConst, D>>,
     thickness: f64,
     broken: usize,
     worst: f64,
@@ -228,6 +230,7 @@ where
             bits,
             inverse_mass,
             reference_volume,
+            members: Vec::new(),
             thickness: 1.0,
             broken: 0,
             worst: 0.0,
@@ -284,14 +287,19 @@ where
 
     /// Nodes that the cracks, or the outline, leave without a shape tensor lose their bonds.
     fn isolate_detached(&mut self) -> Result<()> {
-        if let (true, Some(bits)) = (M::FOLLOWS_DAMAGE, &mut self.bits) {
-            for node in 0..self.family.nodes() {
-                if self.material.detached(&self.family_const.get(self.family.site(node))) {
-                    self.family.isolate(bits, node);
-                }
-            }
+        if M::FOLLOWS_DAMAGE
+            && let Some(mut bits) = self.bits.take()
+        {
+            self.isolate(&mut bits);
+            self.bits = Some(bits);
         }
         self.follow_damage().map(|_| ())
+    }
+
+    /// Cuts the bonds of all detached nodes; returns how many were intact.
+    fn isolate(&self, bits: &mut F::Bits) -> usize {
+        let detached = |&node: &usize| self.material.detached(&self.family_constants(node));
+        (0..self.nodes()).filter(detached).map(|node| self.family.isolate(bits, node)).sum()
     }
 
     /// Number of nodes.
@@ -454,18 +462,16 @@ where
         Ok(lost)
     }
     fn follow_constants(&mut self, bits: &mut F::Bits) -> Result<usize> {
-        let Self { family, material, table, node_const, family_const, .. } = self;
-        let (mut members, mut total) = (Vec::new(), 0);
+        let mut total = 0;
         loop {
-            let (mut detached, mut result) = (Vec::new(), Ok(()));
+            let Self { family, material, table, node_const, family_const, members, .. } = self;
+            let (mut detached, mut result) = (false, Ok(()));
             family.marked(bits, &mut |node| {
-                family.members(node, table, Some(bits), &mut members);
+                family.members(node, table, Some(bits), members);
                 let scale = family.scale(node);
-                match material.node_const(&Neighbourhood { node, scale, members: &members }) {
+                match material.node_const(&Neighbourhood { node, scale, members }) {
                     Ok((value, own)) => {
-                        if material.detached(&own) {
-                            detached.push(node);
-                        }
+                        detached |= material.detached(&own);
                         node_const.set(family.site(node), value);
                         family_const.set(family.site(node), own);
                     }
@@ -473,7 +479,7 @@ where
                 }
             });
             result?;
-            let lost: usize = detached.iter().map(|&node| family.isolate(bits, node)).sum();
+            let lost = if detached { self.isolate(bits) } else { 0 };
             if lost == 0 {
                 return Ok(total);
             }
