@@ -29,6 +29,35 @@
 //!     Ok(())
 //! }
 //! ```
+//! # The time step
+//! `TimeStep::Safety(0.8)` takes that share of the body's own critical step, found from its own
+//! operator, so that free surfaces and cracks count. To see it beside the infinite lattice and the
+//! estimates of books:
+//!
+//! ```
+//! use peridynamics::prelude::*;
+//! # fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
+//! let (dx, density, m) = (1e-3, 1586.0, Horizon::Cells(3.0));
+//! let grid = Grid::new(&Cuboid::centred([20.0 * dx, 20.0 * dx])?, dx)?;
+//! let ply = Lamina { e1: 136e9, e2: 8.75e9, g12: 5.5e9, nu12: 0.3 };
+//! let stiffness = Stiffness::<2>::lamina(&ply)?;
+//! let influence = InfluenceFunction::Linear;
+//! let material = Correspondence::new(LinearElastic(stiffness), density, influence)?;
+//! let symbol = Symbol::of(&material, dx, m, Quadrature::None)?;
+//! println!("{}", symbol.stability());
+//! let family = Lattice::<f64, 2>::new(&grid, m, Quadrature::None)?;
+//! let mut body = Body::new(family, material, NoDamage)?;
+//! let fastest = stiffness.max_wave_speed(density)?;
+//! let estimates = TimeStepEstimates::new(&mut body, &symbol, fastest)?;
+//! println!("{estimates}");
+//! assert!(estimates.body < 0.7 * estimates.bulk);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! A fixed step above the critical one is refused, and so is a body with a motion that grows at any
+//! step (polynomial micromoduli of carbon plies): [`Error::UnstableBody`](core::Error) names ω² and
+//! the wave. `TimeStep::Unchecked` runs either.
 pub use pd_core as core;
 pub use pd_damage as damage;
 #[cfg(feature = "io")]
@@ -61,13 +90,14 @@ pub mod prelude {
     pub use pd_core::run::{Energies, Flow, Observer, Run, TimeStep, View, reaction};
     pub use pd_core::shape::{IllConditioned, ShapePolicy};
     pub use pd_core::symbol::{Stability, Symbol};
+    pub use pd_core::time_step::TimeStepEstimates;
     pub use pd_core::{Error, Real, Result};
     pub use pd_damage::{
         CrackPath, CriterionExt, CriticalStretch, Interfaces, Signs, Strengths, TsaiHill, TsaiHill3,
     };
     pub use pd_models::{
         BondBased, BondLaw, Constitutive, Correspondence, Isotropic, Lamina, LinearElastic,
-        LinearSolid, MadenciOterkus, NeoHookean, Ordinary, Orthotropic, PlaneMode, Pmb,
+        LinearSolid, MadenciOterkus, Mixed, NeoHookean, Ordinary, Orthotropic, PlaneMode, Pmb,
         PolynomialMicromoduli, PositiveSplit, Regions, SaintVenantKirchhoff, SillingControl,
         Stiffness, TransverselyIsotropic, WanControl,
     };

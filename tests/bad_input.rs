@@ -58,5 +58,6 @@ fn loads_that_make_no_sense() {
     let late = Loads::new().velocity(&edge, 0, |t: f64| if t > 1e-3 { f64::NAN } else { 0.0 });
     let mut run = Run::new(&mut body, late, TimeStep::Safety(0.5)).expect("run");
     let error = run.until(1.0).expect_err("ends");
-    assert!(matches!(error, Error::NotFinite { .. }), "{error}");
+    assert!(matches!(error, Error::During { .. }), "{error}");
+    assert!(error.to_string().contains("prescribed velocity [m/s] is NaN"), "{error}");
 }

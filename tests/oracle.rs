@@ -128,7 +128,7 @@ fn linear_solid() {
 
 #[test]
 fn madenci_oterkus() {
-    // The reference for large displacements has the printed Λ, ours has Λ = 1 (errata 001-3).
+    // The reference for large displacements has the printed Λ (errata 001-3): see below.
     let case = Case::read("mo_ps");
     let crack = case.segment();
     let material = || {
@@ -137,6 +137,24 @@ fn madenci_oterkus() {
     };
     check::<f64, 2, _>(&case, "linear_small", &crack, material, |_, _| ());
     check::<f32, 2, _>(&case, "linear_small", &crack, material, |_, _| ());
+}
+
+#[test]
+fn madenci_oterkus_as_printed() {
+    let case = Case::read("mo_ps");
+    let crack = case.segment();
+    let material = || {
+        let model = MadenciOterkus::plane(&isotropic(&case), mode(&case), RHO);
+        model.expect("material").as_printed()
+    };
+    check::<f64, 2, _>(&case, "nonlinear_large", &crack, material, |what, node| {
+        // The state is 2aθ, and a is given.
+        let a = 2.0 * case.result("nonlinear_large", "a")[0];
+        let theta: Vec<f64> = (0..case.positions::<2>().len()).map(|i| node(i).2 / a).collect();
+        let difference = relative_difference(&theta, &case.result("nonlinear_large", "theta"));
+        assert!(difference < 1e-12, "{what} θ: {difference:e}");
+    });
+    check::<f32, 2, _>(&case, "nonlinear_large", &crack, material, |_, _| ());
 }
 
 fn stiffness2(case: &Case) -> Stiffness<2> {

@@ -171,6 +171,22 @@ pub enum Error {
         /// √(−ω²) in 1/s.
         growth_rate: f64,
     },
+    /// A body with a motion that grows at any time step.
+    #[error(
+        "this body has a negative ω² = {eigenvalue:e} 1/s²: a motion like the plane wave k = \
+         {wave:?} 1/m grows at a rate of {growth_rate:e} 1/s or more, so a run would blow up at any \
+         time step. Use a calibration that is stable for this stiffness (`PositiveSplit` is for \
+         all), or another horizon or influence function; `Symbol::stability` tells whether the \
+         infinite lattice has it too. TimeStep::Unchecked runs the body as it is"
+    )]
+    UnstableBody {
+        /// An upper bound of the smallest ω² in 1/s².
+        eigenvalue: f64,
+        /// Wave vector k in 1/m that the motion has most of.
+        wave: Vec<f64>,
+        /// √(−ω²) in 1/s.
+        growth_rate: f64,
+    },
     /// A displacement or velocity is NaN or infinite.
     #[error(
         "displacement or velocity of node {node} is not finite at step {step}, t = {time:e} s: the \

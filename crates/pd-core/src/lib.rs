@@ -50,3 +50,4 @@ pub use record::Record;
 pub use run::{Energies, Flow, Observer, Run, TimeStep, View};
 pub use search::{Rows, neighbours};
 pub use symbol::Symbol;
+pub use time_step::TimeStepEstimates;

@@ -146,6 +146,25 @@ pub struct Bound {
 }
 
 impl Bound {
+    /// Refuses values that are not finite during the step from t to t + dt: NaN would spread over
+    /// the body before anyone looks.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`].
+    pub fn require_finite(&self, t: f64, dt: f64) -> Result<()> {
+        for load in self.supports.iter().chain(&self.forces) {
+            let what = match load.kind {
+                Kind::Displacement => "prescribed displacement [m]",
+                Kind::Velocity => "prescribed velocity [m/s]",
+                Kind::BodyForce => "body force [N/m³]",
+            };
+            for time in [t + 0.5 * dt, t + dt] {
+                let value = load.value.at(time);
+                Error::check(value.is_finite(), what, value, "finite at every time")?;
+            }
+        }
+        Ok(())
+    }
     /// Before the drift from t to t + dt: prescribed components move at the speed that takes them
     /// where they must be at t + dt.
     pub fn hold<T: Real, const D: usize>(&self, body: &mut impl Dynamics<T, D>, t: f64, dt: f64) {

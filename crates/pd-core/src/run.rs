@@ -6,7 +6,7 @@ use crate::family::{Family, Tally};
 use crate::integrator::{Clock, Integrator, VelocityVerlet};
 use crate::loads::{Bound, Loads};
 use crate::material::StrainEnergy;
-use crate::time_step::{Spectrum, spectrum};
+use crate::time_step::{Spectrum, require_stable, spectrum};
 use crate::{Error, Real, Result};
 use std::marker::PhantomData;
 
@@ -17,7 +17,7 @@ pub enum TimeStep {
     Safety(f64),
     /// Δt in seconds; refused above the body's critical step.
     Fixed(f64),
-    /// Δt in seconds, whatever the critical step is.
+    /// Δt in seconds, whatever the critical step is, of an unstable body too.
     Unchecked(f64),
 }
 
@@ -124,7 +124,8 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>> Run<'a, T, D, B> {
     ///
     /// # Errors
     /// [`Error::UnstableTimeStep`] for a fixed step above the critical one,
-    /// [`Error::InvalidValue`] for a step or safety that is not positive, and what binding the
+    /// [`Error::UnstableBody`] for a body with motions that grow at any step (unless
+    /// [`TimeStep::Unchecked`]), [`Error::InvalidValue`] for a step or safety that is not positive, and what binding the
     /// loads or evaluating forces reports.
     pub fn new(body: &'a mut B, loads: Loads, rule: TimeStep) -> Result<Self> {
         Self::with_integrator(body, loads, rule, VelocityVerlet::new())
@@ -158,6 +159,9 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
             scalar: PhantomData,
         };
         run.choose_time_step()?;
+        if let Some(found) = run.critical {
+            require_stable(run.body, &found)?;
+        }
         run.loads.place(run.body, 0.0);
         run.body.evaluate()?;
         run.loads.add_forces(run.body, 0.0);
@@ -252,8 +256,8 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
     /// Runs until time `end` in seconds (the last step may pass it by less than Δt).
     ///
     /// # Errors
-    /// [`Error::NotFinite`] and [`Error::BlowUp`] with step, time and node; what observers and the
-    /// evaluation of forces report.
+    /// [`Error::NotFinite`] and [`Error::BlowUp`] with step, time and node; loads that are not finite
+    /// at some time; what observers and the evaluation of forces report.
     pub fn until(&mut self, end: f64) -> Result<()> {
         Error::check(end.is_finite(), "end time [s]", end, "finite")?;
         if self.step == 0 && self.call_observers(end)? == Flow::Stop {
@@ -290,6 +294,7 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
         self.step += 1;
         let clock = Clock { step: self.step, time: self.time, dt: self.dt };
         let located = |error: Error| error.at(clock.step, clock.time + clock.dt);
+        self.loads.require_finite(clock.time, clock.dt).map_err(located)?;
         let tally = match &mut self.account {
             Some(account) => {
                 self.integrator.step(self.body, &self.loads, clock, account).map_err(located)?

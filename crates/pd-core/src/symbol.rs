@@ -328,6 +328,33 @@ impl<const D: usize> Symbol<D> {
         self.default_extremes().critical_time_step()
     }
 
+    /// Mass density ρ in kg/m³.
+    pub fn density(&self) -> f64 {
+        self.density
+    }
+
+    /// Σ |K(x)| in Pa/m² over the neighbours x of a node (spectral norms): how strongly it is tied
+    /// to them. For a bond-based material Σ c V/|ξ|.
+    pub fn stiffness_sum(&self) -> f64 {
+        let norm = |k: &SMatrix<f64, D, D>| {
+            let embedded = Matrix3::from_fn(|i, j| if i < D && j < D { k[(i, j)] } else { 0.0 });
+            embedded.symmetric_eigenvalues().amax()
+        };
+        // −4 K(x) of one of each pair ±x.
+        self.constants.iter().map(|(_, k)| 0.5 * norm(k)).sum()
+    }
+
+    /// 2/ω in seconds for Gershgorin's bound, ρω² ≤ max_a Σ_x Σ_b |K_ab(x)|: never above
+    /// [`critical_time_step`](Self::critical_time_step).
+    pub fn gershgorin_time_step(&self) -> f64 {
+        let (own, others) = self.constants.iter().fold(
+            (SMatrix::<f64, D, D>::zeros(), SMatrix::<f64, D, D>::zeros()),
+            |(own, others), (_, k)| (own + k * 0.5, others + k.abs() * 0.5),
+        );
+        let rows = (own.abs() + others).column_sum();
+        2.0 / (rows.max() / self.density).sqrt()
+    }
+
     /// Whether every wave keeps its amplitude ([`Extremes::stability`]), sampled as
     /// [`max_frequency`](Self::max_frequency).
     pub fn stability(&self) -> Stability<D> {

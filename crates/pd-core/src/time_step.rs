@@ -5,8 +5,11 @@
 //! broken bonds included; the lattice symbol and the classical estimates stand beside it.
 
 use crate::body::Dynamics;
-use crate::{Real, Result};
-use nalgebra::{DMatrix, SVector};
+use crate::symbol::Symbol;
+use crate::{Error, Real, Result};
+use nalgebra::{DMatrix, DVector, SVector};
+use std::f64::consts::PI;
+use std::fmt;
 
 /// Largest number of Lanczos steps.
 const STEPS: usize = 80;
@@ -15,6 +18,9 @@ const TOLERANCE: f64 = 1e-3;
 /// Amplitude of the probing displacements in units of Δx: small against the bonds, and as
 /// displacements are stored (not positions) nothing cancels.
 const AMPLITUDE: f64 = 1e-6;
+
+/// Wave vectors per axis among which the wave of an unstable body is sought, in 2D and in 3D.
+const WAVES: [usize; 2] = [48, 16];
 
 /// Extremes of the spectrum of M⁻¹K of a body about its reference configuration.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,15 +78,116 @@ fn apply<T: Real, const D: usize, B: Dynamics<T, D>>(
 /// # Errors
 /// What the evaluation of forces reports.
 pub fn spectrum<T: Real, const D: usize, B: Dynamics<T, D>>(body: &mut B) -> Result<Spectrum> {
+    in_peace(body, |body| Ok(ritz(&lanczos(body, |_| ())?)))
+}
+
+/// Refuses a body with a clearly negative ω²: a motion that grows at any time step, like those of
+/// polynomial micromoduli of strongly anisotropic plies. `found` is the body's own spectrum; its
+/// lowest Ritz value is never below the true one, so nothing stable is refused. A body that is
+/// only slightly unstable may pass: ask the [`Symbol`].
+///
+/// # Errors
+/// [`Error::UnstableBody`] with ω² and the wave, and what the evaluation of forces reports.
+pub fn require_stable<T: Real, const D: usize, B: Dynamics<T, D>>(
+    body: &mut B,
+    found: &Spectrum,
+) -> Result<()> {
+    // What rounding makes of a zero-energy mode is far smaller than its square root.
+    if found.lowest >= -T::EPSILON.sqrt() * found.largest {
+        return Ok(());
+    }
+    let motion = in_peace(body, lowest_motion)?;
+    Err(Error::UnstableBody {
+        eigenvalue: found.lowest,
+        wave: dominant_wave(body, &motion).iter().copied().collect(),
+        growth_rate: (-found.lowest).sqrt(),
+    })
+}
+
+/// Probes a body and puts its motion back.
+fn in_peace<T: Real, const D: usize, B: Dynamics<T, D>, X>(
+    body: &mut B,
+    probe: impl FnOnce(&mut B) -> Result<X>,
+) -> Result<X> {
     let saved = (body.u().clone(), body.force().clone());
-    let result = lanczos(body);
+    let result = probe(body);
     *body.u_mut() = saved.0;
     body.evaluate()?;
     *body.force_mut() = saved.1;
     result
 }
 
-fn lanczos<T: Real, const D: usize, B: Dynamics<T, D>>(body: &mut B) -> Result<Spectrum> {
+/// The motion of the lowest Ritz value: the same iteration again, as its vectors are not kept.
+fn lowest_motion<T: Real, const D: usize, B: Dynamics<T, D>>(
+    body: &mut B,
+) -> Result<Vec<SVector<f64, D>>> {
+    let (values, vectors) = lanczos(body, |_| ())?.eigen();
+    let share: DVector<f64> = vectors.column(values.imin()).into_owned();
+    let mut motion = vec![SVector::zeros(); body.nodes()];
+    let mut step = 0;
+    lanczos(body, |q| {
+        motion.iter_mut().zip(q).for_each(|(y, q)| *y += q * share[step]);
+        step += 1;
+    })?;
+    Ok(motion)
+}
+
+/// The wave vector k in 1/m, among those of a sampled Brillouin zone, that a motion has most of:
+/// largest |Σ y exp(−ik·x)|.
+fn dominant_wave<T: Real, const D: usize, B: Dynamics<T, D>>(
+    body: &B,
+    motion: &[SVector<f64, D>],
+) -> SVector<f64, D> {
+    use rayon::prelude::*;
+    let (samples, unit) = (WAVES[usize::from(D == 3)], body.unit());
+    let places: Vec<SVector<f64, D>> = (0..body.nodes()).map(|i| body.position(i)).collect();
+    // D(−k) = D(k), so half of the zone is enough: the last component is not negative.
+    let wave = |index: usize| {
+        SVector::<f64, D>::from_fn(|d, _| {
+            let place = (index / samples.pow(d as u32) % samples) as f64 / samples as f64;
+            let phase = if d == D - 1 { PI * place } else { PI * (2.0 * place - 1.0) };
+            phase / unit
+        })
+    };
+    let content = |k: &SVector<f64, D>| {
+        let (mut even, mut odd) = (SVector::<f64, D>::zeros(), SVector::<f64, D>::zeros());
+        for (x, y) in places.iter().zip(motion) {
+            let (sin, cos) = k.dot(x).sin_cos();
+            even += y * cos;
+            odd += y * sin;
+        }
+        even.norm_squared() + odd.norm_squared()
+    };
+    let contents: Vec<f64> =
+        (0..samples.pow(D as u32)).into_par_iter().map(|index| content(&wave(index))).collect();
+    wave(DVector::from_vec(contents).imax())
+}
+
+/// The tridiagonal matrix that the iteration leaves.
+struct Tridiagonal {
+    alphas: Vec<f64>,
+    /// The last one leads out of the matrix.
+    betas: Vec<f64>,
+}
+
+impl Tridiagonal {
+    fn eigen(&self) -> (DVector<f64>, DMatrix<f64>) {
+        let k = self.alphas.len();
+        let eigen = DMatrix::from_fn(k, k, |i, j| match i.abs_diff(j) {
+            0 => self.alphas[i],
+            1 => self.betas[i.min(j)],
+            _ => 0.0,
+        })
+        .symmetric_eigen();
+        (eigen.eigenvalues, eigen.eigenvectors)
+    }
+}
+
+/// Calls `visit` with every vector of the iteration.
+fn lanczos<T: Real, const D: usize, B: Dynamics<T, D>>(
+    body: &mut B,
+    mut visit: impl FnMut(&[SVector<f64, D>]),
+) -> Result<Tridiagonal> {
     let n = body.nodes();
     let masses: Vec<f64> = (0..n).map(|node| body.mass(node)).collect();
     let dot = |a: &[SVector<f64, D>], b: &[SVector<f64, D>]| {
@@ -92,25 +199,23 @@ fn lanczos<T: Real, const D: usize, B: Dynamics<T, D>>(body: &mut B) -> Result<S
     q.iter_mut().for_each(|q| *q /= norm);
     let mut previous = vec![SVector::zeros(); n];
     let mut w = previous.clone();
-    let (mut alphas, mut betas): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
-    let mut found = Spectrum { largest: 0.0, lowest: 0.0, residual: 0.0 };
-    for step in 1..=STEPS.min(D * n) {
+    let mut found = Tridiagonal { alphas: Vec::new(), betas: Vec::new() };
+    let last = STEPS.min(D * n);
+    for step in 1..=last {
+        visit(&q);
         apply(body, &q, &mut w)?;
         let alpha = dot(&w, &q);
-        let back = betas.last().copied().unwrap_or(0.0);
+        let back = found.betas.last().copied().unwrap_or(0.0);
         for i in 0..n {
             w[i] -= q[i] * alpha + previous[i] * back;
         }
         let beta = dot(&w, &w).sqrt();
-        alphas.push(alpha);
-        let exhausted = beta <= 1e-12 * alphas[0].abs().max(alpha.abs());
-        if step % 5 == 0 || exhausted || step == STEPS.min(D * n) {
-            found = ritz(&alphas, &betas, beta);
-            if exhausted || found.residual < TOLERANCE {
-                break;
-            }
+        found.alphas.push(alpha);
+        found.betas.push(beta);
+        let exhausted = beta <= 1e-12 * found.alphas[0].abs().max(alpha.abs());
+        if exhausted || (step % 5 == 0 && ritz(&found).residual < TOLERANCE) {
+            break;
         }
-        betas.push(beta);
         std::mem::swap(&mut previous, &mut q);
         for i in 0..n {
             q[i] = w[i] / beta;
@@ -119,21 +224,71 @@ fn lanczos<T: Real, const D: usize, B: Dynamics<T, D>>(body: &mut B) -> Result<S
     Ok(found)
 }
 
-fn ritz(alphas: &[f64], betas: &[f64], beta: f64) -> Spectrum {
-    let k = alphas.len();
-    let tridiagonal = DMatrix::from_fn(k, k, |i, j| match i.abs_diff(j) {
-        0 => alphas[i],
-        1 => betas[i.min(j)],
-        _ => 0.0,
-    });
-    let eigen = tridiagonal.symmetric_eigen();
-    let top = eigen.eigenvalues.imax();
-    let value = eigen.eigenvalues[top];
-    let residual = beta * eigen.eigenvectors[(k - 1, top)].abs();
+fn ritz(found: &Tridiagonal) -> Spectrum {
+    let (values, vectors) = found.eigen();
+    let (top, k) = (values.imax(), found.alphas.len());
+    let residual = found.betas[k - 1] * vectors[(k - 1, top)].abs();
     Spectrum {
-        largest: value + residual,
-        lowest: eigen.eigenvalues.min(),
-        residual: residual / value.abs(),
+        largest: values[top] + residual,
+        lowest: values.min(),
+        residual: residual / values[top].abs(),
+    }
+}
+
+/// The stable time step of a body beside what other ways to find it say, all in seconds. Print it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeStepEstimates {
+    /// 2/ω_max of the body itself: the one that counts.
+    pub body: f64,
+    /// 2/ω_max of the infinite lattice ([`Symbol::critical_time_step`]): free surfaces and cracks
+    /// lower it.
+    pub bulk: f64,
+    /// Gershgorin's bound on the ω_max of the infinite lattice: never above `bulk`.
+    pub gershgorin: f64,
+    /// Silling and Askari 2005, √(2ρ / Σ C V) with the stiffness C V of a bond of any material:
+    /// the force that the displacement of one end gives the other.
+    pub silling_askari: f64,
+    /// δ/c with the fastest wave of the continuum: above the limit of PMB and LPS.
+    pub courant: f64,
+    /// 0.01 δ/c (Hattori 2018).
+    pub hattori: f64,
+}
+
+impl TimeStepEstimates {
+    /// For a body, the symbol of its material and the speed c in m/s of the fastest wave of the
+    /// continuum (`Stiffness::max_wave_speed` of `pd-models`).
+    ///
+    /// # Errors
+    /// A speed that is not positive, and what the evaluation of forces reports.
+    pub fn new<T: Real, const D: usize, B: Dynamics<T, D>>(
+        body: &mut B,
+        symbol: &Symbol<D>,
+        wave_speed: f64,
+    ) -> Result<Self> {
+        let wave_speed = Error::positive("speed of the fastest wave c [m/s]", wave_speed)?;
+        let horizon = body.horizon() * body.unit();
+        Ok(Self {
+            body: spectrum(body)?.critical_time_step(),
+            bulk: symbol.critical_time_step(),
+            gershgorin: symbol.gershgorin_time_step(),
+            silling_askari: classical::silling_askari(symbol.density(), symbol.stiffness_sum()),
+            courant: classical::courant(horizon, wave_speed),
+            hattori: classical::hattori(horizon, wave_speed),
+        })
+    }
+}
+
+impl fmt::Display for TimeStepEstimates {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "stable time step            s   of the body's")?;
+        let mut line =
+            |name: &str, step: f64| writeln!(f, "{name:<22} {step:9.3e} {:9.3}", step / self.body);
+        line("this body, 2/ω_max", self.body)?;
+        line("infinite lattice", self.bulk)?;
+        line("Gershgorin's bound", self.gershgorin)?;
+        line("Silling and Askari", self.silling_askari)?;
+        line("δ/c", self.courant)?;
+        line("Hattori, 0.01 δ/c", self.hattori)
     }
 }
 

@@ -18,8 +18,10 @@ use std::sync::Arc;
 ///
 /// λ is bilinear in the shear products n_a n_b, so Λ needs one sum per product and node.
 /// Errata 004-1, 004-6, 004-7 are corrected. **These micromoduli are unstable for strongly
-/// anisotropic materials** (`docs/errata.md`, 004-20): ask
-/// [`Symbol::stability`](pd_core::symbol::Symbol::stability) or use [`PositiveSplit`].
+/// anisotropic materials** (`docs/errata.md`, Remark 3): a run refuses such a body with ω² and the
+/// wave ([`UnstableBody`](pd_core::Error::UnstableBody)),
+/// [`Symbol::stability`](pd_core::symbol::Symbol::stability) says so before, and [`PositiveSplit`]
+/// is stable for all.
 #[derive(Clone)]
 pub struct PolynomialMicromoduli<const D: usize, const S: usize> {
     /// Coefficient of each monomial n_a n_b n_c n_d of k, by the exponents of x, y, z.

@@ -21,6 +21,6 @@ pub use elasticity::{
 };
 pub use error::{Error, Result};
 pub use kinematics::{Finite, Kinematics, Linearised};
-pub use linear_solid::{LinearSolid, MadenciOterkus};
+pub use linear_solid::{LinearSolid, MadenciOterkus, MadenciOterkusPrinted};
 pub use ordinary::{Ordinary, ScalarState};
-pub use regions::Regions;
+pub use regions::{Mixed, Regions};

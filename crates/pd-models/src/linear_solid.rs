@@ -5,8 +5,9 @@ use crate::elasticity::{Isotropic, PlaneMode};
 use crate::kinematics::BondLength;
 use crate::ordinary::ScalarState;
 use nalgebra::SVector;
-use pd_core::bond::{Neighbourhood, Scale};
+use pd_core::bond::{Bond, End, Neighbourhood, Scale};
 use pd_core::influence::Influence;
+use pd_core::material::{Material, StrainEnergy};
 use pd_core::{Real, Result as CoreResult};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -127,8 +128,8 @@ pub(crate) fn weighted_volume(m: f64, node: usize, fits: bool) -> CoreResult<f64
     }
 }
 
-/// The Madenci–Oterkus form used by Zhao Eq. 4, with Λ = 1 (Λ as printed is not objective, errata
-/// 001-3): W = a θ² + b Σ (δ/|ξ|) e² βV, θ = d δ Σ (e/|ξ|) βV, t = 2δ(a d θ + b e)/|ξ|.
+/// The Madenci–Oterkus form used by Zhao Eq. 4, with Λ = 1 ([as printed](Self::as_printed) it is
+/// not objective, errata 001-3): W = a θ² + b Σ (δ/|ξ|) e² βV, θ = d δ Σ (e/|ξ|) βV, t = 2δ(a d θ + b e)/|ξ|.
 ///
 /// Not an LPS with one influence function: its dilatation weighs e/|ξ|, its energy e²/|ξ|
 /// (errata 001-4). Use it as `Ordinary::new(MadenciOterkus::…)`.
@@ -156,6 +157,10 @@ impl MadenciOterkus {
     pub fn plane(moduli: &Isotropic, mode: PlaneMode, density: f64) -> Result<Self> {
         let density = pd_core::Error::positive("density ρ [kg/m³]", density)?;
         Ok(Self { kappa: moduli.plane_bulk(mode), shear: moduli.shear(), dimension: 2, density })
+    }
+    /// The same material with Λ as printed: for comparison with codes that have it.
+    pub fn as_printed(self) -> MadenciOterkusPrinted {
+        MadenciOterkusPrinted(self)
     }
     /// a in Pa.
     #[inline(always)]
@@ -208,5 +213,73 @@ impl<T: Real, const D: usize> ScalarState<T, D> for MadenciOterkus {
     #[inline(always)]
     fn scalar_force(&self, e: T, k: &(T, T), (): &(), state: &T) -> T {
         k.0 * *state + k.1 * e
+    }
+}
+
+/// [`MadenciOterkus`] with Λ as printed (Zhao Eqs. 4, 5), the cosine of the bond's rotation:
+/// θ = d δ Σ Λ (e/|ξ|) βV, t = 2δ(a d Λ θ + b e)/|ξ|, Λ = (Y/|Y|)·(ξ/|ξ|).
+///
+/// **Not objective**: a large rigid rotation changes the force (errata 001-3). And t is not the
+/// derivative of its energy W = a θ² + b Σ (δ/|ξ|) e² βV, as that of Λ is left out: a run does not
+/// keep its energy. It is a material by itself, `MadenciOterkus::…?.as_printed()`.
+#[derive(Debug, Clone)]
+pub struct MadenciOterkusPrinted(MadenciOterkus);
+
+/// Extension e, direction M and Λ = M·n.
+#[inline(always)]
+fn with_rotation<T: Real, const D: usize>(
+    bond: &Bond<T, D>,
+    length: BondLength<T>,
+) -> (T, SVector<T, D>, T) {
+    let (e, m) = bond.extension_and_direction(length.length);
+    (e, m, m.dot(&bond.xi) * length.inverse)
+}
+
+impl<T: Real, const D: usize> Material<T, D> for MadenciOterkusPrinted {
+    /// As [`MadenciOterkus`]: (d δ/|ξ|, 2 b δ/|ξ|).
+    type BondConst = (BondLength<T>, (T, T));
+    type NodeConst = ();
+    type FamilyConst = ();
+    /// θ.
+    type FamilySum = T;
+    /// 2aθ.
+    type NodeState = T;
+
+    fn density(&self, _: usize) -> f64 {
+        self.0.density
+    }
+    fn bond_const(&self, xi: &SVector<f64, D>, scale: Scale) -> Self::BondConst {
+        (BondLength::new(xi), self.0.bond_const(xi, scale))
+    }
+    fn node_const(&self, family: &Neighbourhood<'_, Self::BondConst, D>) -> CoreResult<((), ())> {
+        self.0.node_const(family)
+    }
+    #[inline(always)]
+    fn add_bond(&self, sum: &mut T, bond: &Bond<T, D>, end: End<'_, T, Self::BondConst, (), ()>) {
+        let (e, _, rotation) = with_rotation(bond, end.bond.0);
+        *sum += end.bond.1.0 * rotation * e * end.volume;
+    }
+    #[inline(always)]
+    fn node_state(&self, sum: &T, (): &(), (): &(), _: &T) -> T {
+        T::of(2.0 * self.0.a()) * *sum
+    }
+    #[inline(always)]
+    fn force_state(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, (), T>,
+    ) -> SVector<T, D> {
+        let (e, m, rotation) = with_rotation(bond, end.bond.0);
+        let (volumetric, deviatoric) = end.bond.1;
+        m * (volumetric * rotation * *end.state + deviatoric * e)
+    }
+}
+
+impl<T: Real, const D: usize> StrainEnergy<T, D> for MadenciOterkusPrinted {
+    #[inline(always)]
+    fn bond_energy(&self, bond: &Bond<T, D>, end: End<'_, T, Self::BondConst, (), T>) -> T {
+        let (e, _, rotation) = with_rotation(bond, end.bond.0);
+        let (volumetric, deviatoric) = end.bond.1;
+        T::of(0.5) * e * (volumetric * rotation * *end.state + deviatoric * e)
     }
 }

@@ -1,9 +1,10 @@
-//! Several materials of one kind in a body.
+//! Several materials in a body: of one type ([`Regions`]), of two types ([`Mixed`]).
 
 use crate::Result;
 use nalgebra::{SMatrix, SVector};
 use pd_core::bond::{Bond, End, Member, Neighbourhood, Scale};
 use pd_core::material::{Material, StrainEnergy, StressState};
+use pd_core::record::Record;
 use pd_core::{Real, Result as CoreResult};
 
 /// R materials of one type, chosen per node: plies, inclusions, fibre and matrix. Each end of a
@@ -70,11 +71,7 @@ where
         family: &Neighbourhood<'_, Self::BondConst, D>,
     ) -> CoreResult<(Self::NodeConst, M::FamilyConst)> {
         let r = self.of_node(family.node);
-        let members: Vec<Member<M::BondConst, D>> = family
-            .members
-            .iter()
-            .map(|m| Member { xi: m.xi, volume: m.volume, bond: m.bond[r] })
-            .collect();
+        let members = seen_as(family.members, |k| k[r]);
         let own = Neighbourhood { node: family.node, scale: family.scale, members: &members };
         let (constants, of_family) = self.materials[r].node_const(&own)?;
         Ok(((T::of(r as f64), constants), of_family))
@@ -148,5 +145,183 @@ where
         let (r, material) = self.material(end.node.0);
         let End { state, volume, .. } = end;
         material.bond_energy(bond, End { bond: &end.bond[r], node: &end.node.1, state, volume })
+    }
+}
+
+/// Two materials of different types in a body: a stiff inclusion of correspondence material in a
+/// bond-based matrix. Each end of a bond has the force state of its own material; more than two
+/// types nest.
+///
+/// A node carries the arrays of both. Materials of one type are cheaper in [`Regions`], which may
+/// be one of the two.
+pub struct Mixed<A, B> {
+    first: A,
+    second: B,
+    is_second: Vec<bool>,
+}
+
+impl<A, B> Mixed<A, B> {
+    /// From the two materials and, for every node, whether it is of the second one.
+    pub fn new(first: A, second: B, is_second: Vec<bool>) -> Self {
+        Self { first, second, is_second }
+    }
+    /// The materials.
+    pub fn materials(&self) -> (&A, &B) {
+        (&self.first, &self.second)
+    }
+}
+
+/// Whether a tag is that of the second material.
+#[inline(always)]
+fn second<T: Real>(tag: T) -> bool {
+    tag > T::zero()
+}
+
+/// An end as the first and as the second material sees it.
+macro_rules! ends {
+    ($end:expr) => {{
+        let End { bond: (k, l), node: (_, (c, d)), state: (s, t), volume } = $end;
+        let first = End { bond: k, node: c, state: s, volume };
+        (first, End { bond: l, node: d, state: t, volume })
+    }};
+}
+
+impl<T, const D: usize, A, B> Material<T, D> for Mixed<A, B>
+where
+    T: Real,
+    A: Material<T, D>,
+    B: Material<T, D>,
+{
+    type BondConst = (A::BondConst, B::BondConst);
+    /// A tag, 1 for nodes of the second material, and the constants of both.
+    type NodeConst = (T, (A::NodeConst, B::NodeConst));
+    /// The tag, and the constants of both.
+    type FamilyConst = (T, (A::FamilyConst, B::FamilyConst));
+    type FamilySum = (A::FamilySum, B::FamilySum);
+    type NodeState = (A::NodeState, B::NodeState);
+    const FOLLOWS_DAMAGE: bool = A::FOLLOWS_DAMAGE || B::FOLLOWS_DAMAGE;
+    const CAN_FAULT: bool = A::CAN_FAULT || B::CAN_FAULT;
+
+    fn density(&self, node: usize) -> f64 {
+        match self.is_second.get(node) {
+            Some(true) => self.second.density(node),
+            Some(false) => self.first.density(node),
+            // The body refuses it: the list is for another one.
+            None => f64::NAN,
+        }
+    }
+    fn bond_const(&self, xi: &SVector<f64, D>, scale: Scale) -> Self::BondConst {
+        (self.first.bond_const(xi, scale), self.second.bond_const(xi, scale))
+    }
+    fn node_const(
+        &self,
+        family: &Neighbourhood<'_, Self::BondConst, D>,
+    ) -> CoreResult<(Self::NodeConst, Self::FamilyConst)> {
+        let Neighbourhood { node, scale, members } = *family;
+        let (zero, one) = (T::zero(), T::one());
+        if self.is_second.get(node).is_some_and(|&second| second) {
+            let members = seen_as(members, |k| k.1);
+            let own = Neighbourhood { node, scale, members: &members };
+            let (c, f) = self.second.node_const(&own)?;
+            Ok(((one, (Record::zero(), c)), (one, (Record::zero(), f))))
+        } else {
+            let members = seen_as(members, |k| k.0);
+            let own = Neighbourhood { node, scale, members: &members };
+            let (c, f) = self.first.node_const(&own)?;
+            Ok(((zero, (c, Record::zero())), (zero, (f, Record::zero()))))
+        }
+    }
+    #[inline(always)]
+    fn add_bond(
+        &self,
+        sum: &mut Self::FamilySum,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, ()>,
+    ) {
+        let End { bond: (k, l), node: (tag, (c, d)), state, volume } = end;
+        if second(*tag) {
+            self.second.add_bond(&mut sum.1, bond, End { bond: l, node: d, state, volume });
+        } else {
+            self.first.add_bond(&mut sum.0, bond, End { bond: k, node: c, state, volume });
+        }
+    }
+    #[inline(always)]
+    fn node_state(
+        &self,
+        sum: &Self::FamilySum,
+        (tag, (c, d)): &Self::NodeConst,
+        (_, (f, g)): &Self::FamilyConst,
+        previous: &Self::NodeState,
+    ) -> Self::NodeState {
+        if second(*tag) {
+            (Record::zero(), self.second.node_state(&sum.1, d, g, &previous.1))
+        } else {
+            (self.first.node_state(&sum.0, c, f, &previous.0), Record::zero())
+        }
+    }
+    #[inline(always)]
+    fn force_state(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
+    ) -> SVector<T, D> {
+        let tag = end.node.0;
+        let (a, b) = ends!(end);
+        if second(tag) { self.second.force_state(bond, b) } else { self.first.force_state(bond, a) }
+    }
+    #[inline(always)]
+    fn detached(&self, (tag, (f, g)): &Self::FamilyConst) -> bool {
+        if second(*tag) { self.second.detached(g) } else { self.first.detached(f) }
+    }
+    /// The state of the material that a node is not of is zero, in which no material has a fault.
+    fn fault(&self, (s, t): &Self::NodeState) -> Option<f64> {
+        let first = A::CAN_FAULT.then(|| self.first.fault(s)).flatten();
+        first.or_else(|| B::CAN_FAULT.then(|| self.second.fault(t)).flatten())
+    }
+}
+
+/// The members of a family with the constants of one of two materials.
+fn seen_as<K: Copy, L, const D: usize>(
+    members: &[Member<K, D>],
+    of: impl Fn(K) -> L,
+) -> Vec<Member<L, D>> {
+    members.iter().map(|m| Member { xi: m.xi, volume: m.volume, bond: of(m.bond) }).collect()
+}
+
+impl<T, const D: usize, A, B> StressState<T, D> for Mixed<A, B>
+where
+    T: Real,
+    A: StressState<T, D>,
+    B: StressState<T, D>,
+{
+    #[inline(always)]
+    fn stress(
+        &self,
+        (tag, (c, d)): &Self::NodeConst,
+        (s, t): &Self::NodeState,
+    ) -> SMatrix<T, D, D> {
+        if second(*tag) { self.second.stress(d, t) } else { self.first.stress(c, s) }
+    }
+}
+
+impl<T, const D: usize, A, B> StrainEnergy<T, D> for Mixed<A, B>
+where
+    T: Real,
+    A: StrainEnergy<T, D>,
+    B: StrainEnergy<T, D>,
+{
+    #[inline(always)]
+    fn node_energy(&self, (tag, (c, d)): &Self::NodeConst, (s, t): &Self::NodeState) -> T {
+        if second(*tag) { self.second.node_energy(d, t) } else { self.first.node_energy(c, s) }
+    }
+    #[inline(always)]
+    fn bond_energy(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
+    ) -> T {
+        let tag = end.node.0;
+        let (a, b) = ends!(end);
+        if second(tag) { self.second.bond_energy(bond, b) } else { self.first.bond_energy(bond, a) }
     }
 }
