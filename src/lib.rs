@@ -87,13 +87,14 @@ pub mod prelude {
     pub use pd_core::points::Points;
     pub use pd_core::quadrature::Quadrature;
     pub use pd_core::region::{Ball, Cuboid, Cylinder, Disc, Shape, Within};
-    pub use pd_core::run::{Energies, Flow, Observer, Run, TimeStep, View, reaction};
+    pub use pd_core::run::{Energies, Flow, Margin, Observer, Run, TimeStep, View, reaction};
     pub use pd_core::shape::{IllConditioned, ShapePolicy};
     pub use pd_core::symbol::{Stability, Symbol};
     pub use pd_core::time_step::TimeStepEstimates;
     pub use pd_core::{Error, Real, Result};
     pub use pd_damage::{
-        CrackPath, CriterionExt, CriticalStretch, Interfaces, Signs, Strengths, TsaiHill, TsaiHill3,
+        CrackPath, CrackTip, CriterionExt, CriticalStretch, Interfaces, Signs, Strengths, TsaiHill,
+        TsaiHill3,
     };
     pub use pd_models::{
         BondBased, BondLaw, Constitutive, Correspondence, Isotropic, Lamina, LinearElastic,

@@ -1,16 +1,27 @@
 //! Ready-made observers: a progress bar, a CSV history of anything, ParaView series.
 //!
-//! A closure is an observer too; these are the ones most runs want.
+//! A closure is an observer too; these are the ones most runs want. Columns of a [`Table`] that
+//! most histories have:
+//!
+//! | what | column |
+//! |---|---|
+//! | energies | `\|view\| view.energies.map_or(f64::NAN, \|e\| e.strain)`, after `run.with_energies()` |
+//! | reaction force | `\|view\| reaction(view.body, &grip)[1]` |
+//! | crack tip | `\|view\| tip.position(view.body)[0]` with a [`CrackTip`](pd_damage::CrackTip) |
+//! | damage | `\|view\| view.body.broken_bonds() as f64` |
+//! | margin | `\|view\| view.body.worst_index()`; [`Margin`] says it in words |
+//!
+//! A closure that returns [`Flow::Stop`] ends the run early.
 
 use nalgebra::{SMatrix, SVector};
 use pd_core::body::{Body, Dynamics};
 use pd_core::damage::DamagePolicy;
 use pd_core::family::Family;
-use pd_core::material::{Material, StressState};
-use pd_core::run::{Flow, Observer, View};
+use pd_core::material::{Material, StrainEnergy, StressState};
+use pd_core::run::{Flow, Margin, Observer, View};
 use pd_core::{Error, Real, Result};
 use pd_io::{History, Series, Snapshot};
-use std::io::Write as _;
+use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 
@@ -18,18 +29,25 @@ fn output(error: pd_io::Error) -> Error {
     Error::Other(error.to_string())
 }
 
-/// A progress line on standard error: share done, step, time, broken bonds, time left.
+/// A progress line on standard error: share done, step, time, broken bonds, time left. When the
+/// run is over it closes with the margin: "plate: no bond broke; the worst reached 0.83".
 ///
 /// Written by hand: one line that is overwritten needs no terminal library.
 pub struct Progress {
     label: String,
+    out: Box<dyn Write>,
     start: Option<Instant>,
+    margin: Option<Margin>,
 }
 
 impl Progress {
     /// With a label.
     pub fn new(label: &str) -> Self {
-        Self { label: label.to_owned(), start: None }
+        Self::to(std::io::stderr(), label)
+    }
+    /// Into a writer: a log, a test.
+    pub fn to(out: impl Write + 'static, label: &str) -> Self {
+        Self { label: label.to_owned(), out: Box::new(out), start: None, margin: None }
     }
 
     fn show<T: Real, const D: usize, B: Dynamics<T, D>>(&mut self, view: &View<'_, B>) -> Flow {
@@ -38,21 +56,27 @@ impl Progress {
         let left = if done > 0.0 { elapsed * (1.0 - done) / done } else { 0.0 };
         let filled = (done * 24.0) as usize;
         let bar = format!("{}{}", "#".repeat(filled), ".".repeat(24 - filled));
-        let (percent, step, time) = (100.0 * done, view.step, view.time);
-        let (broken, worst) = (view.body.broken_bonds(), view.body.worst_index());
-        let damage = match (view.body.can_break(), broken) {
-            (false, _) => String::new(),
-            (true, 0) => format!(", no bond broken (worst index {worst:.2})"),
-            (true, n) => format!(", {n} bonds broken"),
-        };
+        let (label, percent, step, time) = (&self.label, 100.0 * done, view.step, view.time);
+        self.margin = view.body.can_break().then(|| Margin::of(view.body));
+        let damage = self.margin.map_or(String::new(), |margin| format!(", {margin}"));
         // A progress line that cannot be shown is no reason to end a run.
         let _ = write!(
-            std::io::stderr(),
-            "\r{} [{bar}] {percent:3.0} %  step {step}, t = {time:.3e} s{damage}, {left:.0} s left   {}",
-            self.label,
-            if done >= 1.0 { "\n" } else { "" }
+            self.out,
+            "\r{label} [{bar}] {percent:3.0} %  step {step}, t = {time:.3e} s{damage}, {left:.0} s \
+             left   "
         );
+        let _ = self.out.flush();
         Flow::Continue
+    }
+}
+
+/// The run is over, at its end or before: the line is closed.
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if self.start.is_some() {
+            let closing = self.margin.map(|margin| format!("{}: {margin}\n", self.label));
+            let _ = write!(self.out, "\n{}", closing.unwrap_or_default());
+        }
     }
 }
 
@@ -143,6 +167,17 @@ where
     snapshot(body).tensor("stress", &stress)
 }
 
+/// As [`snapshot`], with the strain energy density.
+pub fn snapshot_with_energy<T, const D: usize, F, M, P>(body: &Body<T, D, F, M, P>) -> Snapshot<D>
+where
+    T: Real,
+    F: Family<T, D>,
+    M: StrainEnergy<T, D>,
+    P: DamagePolicy<T, D, M>,
+{
+    snapshot(body).scalar("strain energy density", &body.energy_densities())
+}
+
 /// Writes a snapshot into a ParaView series at every call.
 pub struct FieldOutput<B, const D: usize> {
     series: Series,
@@ -150,8 +185,8 @@ pub struct FieldOutput<B, const D: usize> {
 }
 
 impl<B, const D: usize> FieldOutput<B, D> {
-    /// A series `name.pvd` in `folder` of what `take` gives ([`snapshot`],
-    /// [`snapshot_with_stress`] or your own).
+    /// A series `name.pvd` in `folder` of what `take` gives: [`snapshot`], [`snapshot_with_stress`],
+    /// [`snapshot_with_energy`] or your own, `|body| snapshot(body).scalar("speed", …)`.
     ///
     /// # Errors
     /// A folder that cannot be written, a name that is empty or has a slash.

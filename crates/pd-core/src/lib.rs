@@ -47,7 +47,7 @@ pub use points::Points;
 pub use quadrature::Quadrature;
 pub use real::Real;
 pub use record::Record;
-pub use run::{Energies, Flow, Observer, Run, TimeStep, View};
+pub use run::{Energies, Flow, Margin, Observer, Run, TimeStep, View};
 pub use search::{Rows, neighbours};
 pub use symbol::Symbol;
 pub use time_step::TimeStepEstimates;

@@ -8,6 +8,7 @@ use crate::loads::{Bound, Loads};
 use crate::material::StrainEnergy;
 use crate::time_step::{Spectrum, require_stable, spectrum};
 use crate::{Error, Real, Result};
+use std::fmt;
 use std::marker::PhantomData;
 
 /// How the time step is chosen.
@@ -46,6 +47,33 @@ pub struct Energies {
     pub external: f64,
     /// Strain energy lost when bonds broke.
     pub dissipated: f64,
+}
+
+/// How near a body came to breaking, for the last line of a program: "no bond broke; the worst
+/// reached 0.83", or how many broke.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Margin {
+    /// Undirected bonds broken since the start.
+    pub broken: usize,
+    /// The largest failure index met: value / critical value.
+    pub worst: f64,
+}
+
+impl Margin {
+    /// Of a body so far.
+    pub fn of<T: Real, const D: usize>(body: &impl Dynamics<T, D>) -> Self {
+        Self { broken: body.broken_bonds(), worst: body.worst_index() }
+    }
+}
+
+impl fmt::Display for Margin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.broken {
+            0 => write!(f, "no bond broke; the worst reached {:.2}", self.worst),
+            1 => write!(f, "1 bond broke; the worst reached {:.2}", self.worst),
+            n => write!(f, "{n} bonds broke; the worst reached {:.2}", self.worst),
+        }
+    }
 }
 
 /// What an observer sees.

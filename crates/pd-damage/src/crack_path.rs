@@ -5,6 +5,8 @@
 //! 0.2 in the second, so nodes that lost 0.35 or more of their family lie on a crack.
 
 use nalgebra::SVector;
+use pd_core::body::Dynamics;
+use pd_core::{Error, Real, Result};
 use std::collections::HashMap;
 
 /// Damage from which on a node counts as separated.
@@ -77,6 +79,48 @@ impl<const D: usize> CrackPath<D> {
     /// Farthest separated node of the components at `tip`, as distance from it in metres.
     pub fn growth(&self, tip: &SVector<f64, D>) -> f64 {
         self.at_tip(tip).iter().map(|n| (n.position - tip).norm()).fold(0.0, f64::max)
+    }
+}
+
+/// Follows the tip of a crack that grows from a known place: a column for a history.
+///
+/// ```text
+/// let tip = CrackTip::new(&body, [0.0125, 0.0])?;
+/// Table::new("out/tip.csv").column("tip x [m]", |view| tip.position(view.body)[0])
+/// ```
+#[derive(Debug, Clone)]
+pub struct CrackTip<const D: usize> {
+    start: SVector<f64, D>,
+    damage: Vec<f64>,
+}
+
+impl<const D: usize> CrackTip<D> {
+    /// The tip at `start` in metres of a body as it is now: what is damaged already is no growth.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a place that is not finite.
+    pub fn new<T: Real>(body: &impl Dynamics<T, D>, start: [f64; D]) -> Result<Self> {
+        for x in start {
+            Error::check(x.is_finite(), "place of the crack tip [m]", x, "finite")?;
+        }
+        let damage = (0..body.nodes()).map(|i| body.damage(i)).collect();
+        Ok(Self { start: start.into(), damage })
+    }
+    /// Position in metres: the farthest node that has separated since the start and is connected to
+    /// it, or where it started. Known to about Δx.
+    pub fn position<T: Real>(&self, body: &impl Dynamics<T, D>) -> SVector<f64, D> {
+        let gained = |i: usize| (i, body.position(i), body.damage(i) - self.damage[i]);
+        let path = CrackPath::new(body.unit(), (0..body.nodes()).map(gained));
+        let far = |x: &SVector<f64, D>| (x - self.start).norm();
+        let grown = path.at_tip(&self.start);
+        grown
+            .iter()
+            .map(|n| n.position)
+            .fold(self.start, |a, b| if far(&b) > far(&a) { b } else { a })
+    }
+    /// How far the tip has moved in metres.
+    pub fn growth<T: Real>(&self, body: &impl Dynamics<T, D>) -> f64 {
+        (self.position(body) - self.start).norm()
     }
 }
 

@@ -5,6 +5,6 @@ pub mod critical_stretch;
 pub mod tsai_hill;
 
 pub use combine::{CriterionExt, Interfaces, Sparing};
-pub use crack_path::{CrackPath, LineFit};
+pub use crack_path::{CrackPath, CrackTip, LineFit};
 pub use critical_stretch::CriticalStretch;
 pub use tsai_hill::{Signs, Strengths, Strengths3, TsaiHill, TsaiHill3};
