@@ -10,10 +10,20 @@
 //!     let bonds = Pmb::plane(moduli, mode, 2500.0, InfluenceFunction::Constant).unwrap();
 //!     let strengths = Strengths { along: 1e9, across: 6e7, shear: 7e7 };
 //!     let tsai_hill = TsaiHill::new(&strengths, 0.0)?;
-//!     // error: `Ordinary<Pmb>` has no stress at a node, so a stress-based criterion cannot use it
 //!     let body = Body::new(family, Ordinary::new(bonds), Breaking::new(tsai_hill))?;
 //!     Ok(())
 //! }
+//! ```
+//!
+//! The compiler says:
+//!
+//! ```text
+//! error[E0277]: `Ordinary<Pmb>` has no stress at a node, so a stress-based criterion cannot use it
+//!   |
+//! 8 |     let body = Body::new(family, Ordinary::new(bonds), Breaking::new(tsai_hill))?;
+//!   |                ^^^^ this material gives no stress
+//!   |
+//!   = note: use a criterion on bonds (critical stretch, bond energy), or a correspondence or state-based material whose nodes have a strain
 //! ```
 //!
 //! With a correspondence material the same lines compile:

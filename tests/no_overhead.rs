@@ -29,3 +29,71 @@ fn a_scene_holds_only_what_it_needs() {
     let bits = Body::new(family, Ordinary::new(pmb()), Precracked::default()).expect("body");
     assert!(bits.memory().bond_bits > 0);
 }
+
+/// Bits of damage per undirected bond, and bytes of the family and of bond constants.
+fn sizes<T: Real, F: Family<T, 3>>(family: F) -> (f64, usize, usize) {
+    let moduli = Isotropic::from_young_poisson(7e10, 0.2).expect("moduli");
+    let solid = LinearSolid::solid(&moduli, 1e3, InfluenceFunction::Constant).expect("material");
+    let bonds = family.bonds() as f64;
+    let body = Body::new(family, Ordinary::new(solid), Precracked::default()).expect("body");
+    let memory = body.memory();
+    (8.0 * memory.bond_bits as f64 / bonds, memory.family, memory.bond_constants)
+}
+
+fn cube(n: f64) -> Grid<3> {
+    Grid::new(&Cuboid::centred([n; 3]).expect("box"), 1.0).expect("grid")
+}
+
+/// A lattice holds one table of offsets, whatever its size, and one bit per site and offset of half
+/// the table: one per undirected bond of the bulk. Sites that pad rows and bonds missing at the
+/// surface have bits too: little in a large body. Marks of nodes that lost a bond are two bits a
+/// site.
+#[test]
+fn a_lattice_holds_one_table_and_a_bit_per_bond() {
+    fn check<T: Real>(scalar: usize) {
+        let lattice =
+            |n: f64| Lattice::<T, 3>::new(&cube(n), Horizon::Cells(3.015), Quadrature::None);
+        let (small, large) = (lattice(16.0).expect("family"), lattice(48.0).expect("family"));
+        let offsets = large.offsets();
+        assert_eq!(offsets, 122);
+        let (_, _, of_small) = sizes(small);
+        let sites = Family::<T, 3>::sites(&large);
+        let bonds = Family::<T, 3>::bonds(&large);
+        let (bits, _, of_large) = sizes(large);
+        println!("{}: {bits:.3} bits per bond, {of_large} bytes of constants", T::NAME);
+        // |ξ|, 1/|ξ|, ω and ω|ξ| per offset.
+        assert_eq!(of_small, of_large);
+        assert_eq!(of_large, offsets * 4 * scalar);
+        let most = sites * (offsets / 2 + 2);
+        assert!(bits * bonds as f64 <= most as f64 + 64.0, "{bits}");
+        assert!(sites < 14 * 48_usize.pow(3) / 10, "{sites} sites");
+    }
+    check::<f64>(8);
+    check::<f32>(4);
+}
+
+/// A cloud holds rows: per directed bond ξ, two volumes and the neighbour; a bit of damage.
+#[test]
+fn a_cloud_holds_compressed_rows() {
+    fn check<T: Real>(scalar: usize) {
+        let points = Points::from_grid(&cube(16.0));
+        let cloud = Cloud::<T, 3>::new(&points, Horizon::Cells(3.015), Quadrature::None);
+        let cloud = cloud.expect("family");
+        let (nodes, directed) = (points.len(), 2 * Family::<T, 3>::bonds(&cloud));
+        let (bits, family, constants) = sizes(cloud);
+        println!(
+            "{}: {bits:.3} bits per bond, {:.1} bytes a directed bond",
+            T::NAME,
+            family as f64 / directed as f64
+        );
+        // The index is padded to the alignment of the scalars.
+        let row = (5 * scalar + 4).next_multiple_of(scalar);
+        assert!(family >= directed * row);
+        assert!(family <= directed * row + nodes * (8 + 3 * 8 + 8) + 64, "{family}");
+        assert_eq!(constants, directed * 4 * scalar);
+        // One bit per directed bond, rows rounded up to bytes, and where each row starts.
+        assert!(bits < 2.0 + (nodes * (7 + 64 + 8)) as f64 / (0.5 * directed as f64), "{bits}");
+    }
+    check::<f64>(8);
+    check::<f32>(4);
+}
