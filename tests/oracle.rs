@@ -271,22 +271,84 @@ fn two_materials_in_one_body() {
     check::<f32, 2, _>(&case, "linear_small", &crack, material, |_, _| ());
 }
 
+/// Dilatation and m of linear solids, in every group of results.
+fn fields_of_linear_solid<T: Real, const D: usize>(
+    case: &Case,
+    crack: &(impl CrackSurface<D> + Clone + 'static),
+    model: impl Fn() -> LinearSolid,
+) {
+    let tolerance = if T::NAME == "f64" { 1e-12 } else { 1e-4 };
+    for group in case.json["results"].as_object().expect("groups").keys() {
+        let n = case.positions::<D>().len();
+        let unit = case.number("dx").powi(D as i32 + 2) * case.thickness();
+        // The reference's θ is c_θ/D of the trace.
+        let to_trace = D as f64 / case.result(group, "c_theta")[0];
+        let compare = |what: &str, node: &dyn Fn(usize) -> (T, (), T)| {
+            let theta: Vec<f64> =
+                (0..n).map(node).map(|(c, (), s)| model().dilatation(c, s).to_f64()).collect();
+            let m: Vec<f64> = (0..n).map(|i| unit / node(i).0.to_f64()).collect();
+            let reference =
+                case.result(group, "theta").iter().map(|t| t * to_trace).collect::<Vec<_>>();
+            for (field, difference) in [
+                ("theta", relative_difference(&theta, &reference)),
+                ("m", relative_difference(&m, &case.result(group, "m"))),
+            ] {
+                assert!(difference < tolerance, "{group} {what} {field}: {difference:e}");
+            }
+        };
+        if group.starts_with("linear") {
+            check::<T, D, _>(case, group, crack, || Ordinary::linearised(model()), compare);
+        } else {
+            check::<T, D, _>(case, group, crack, || Ordinary::new(model()), compare);
+        }
+    }
+}
+
 #[test]
-fn node_fields_of_ordinary_models() {
+fn node_fields_of_linear_solids() {
+    for name in ["lps_ps_unit_one", "lps_ps_gauss_exact", "lps_pe_gauss_one"] {
+        let case = Case::read(name);
+        let model = || {
+            let model = LinearSolid::plane(&isotropic(&case), mode(&case), RHO, case.influence());
+            model.expect("material")
+        };
+        fields_of_linear_solid::<f64, 2>(&case, &case.segment(), model);
+        fields_of_linear_solid::<f32, 2>(&case, &case.segment(), model);
+    }
     let case = Case::read("lps_3d_unit_one");
     let model = || LinearSolid::solid(&isotropic(&case), RHO, case.influence()).expect("material");
-    let crack = case.polygon();
-    check::<f64, 3, _>(
-        &case,
-        "linear_small",
-        &crack,
-        || Ordinary::linearised(model()),
-        |_, node| {
-            let n = case.positions::<3>().len();
-            let theta: Vec<f64> = (0..n).map(node).map(|(c, (), s)| s / c).collect();
-            let m: Vec<f64> = (0..n).map(|i| case.number("dx").powi(5) / node(i).0).collect();
-            assert!(relative_difference(&theta, &case.result("linear_small", "theta")) < 1e-12);
-            assert!(relative_difference(&m, &case.result("linear_small", "m")) < 1e-12);
-        },
-    );
+    fields_of_linear_solid::<f64, 3>(&case, &case.polygon(), model);
+    fields_of_linear_solid::<f32, 3>(&case, &case.polygon(), model);
+}
+
+/// k₀/m of the positive split.
+#[test]
+fn node_fields_of_the_positive_split() {
+    fn compare<T: Real, const D: usize>(case: &Case, what: &str, ratio: &dyn Fn(usize) -> T) {
+        let tolerance = if T::NAME == "f64" { 1e-12 } else { 1e-4 };
+        let n = case.positions::<D>().len();
+        let unit = case.number("dx").powi(D as i32 + 2) * case.thickness();
+        let m = case.result("linear_small", "m");
+        let k0: Vec<f64> = (0..n).map(|i| ratio(i).to_f64() * m[i] / unit).collect();
+        let difference = relative_difference(&k0, &case.result("linear_small", "k0"));
+        assert!(difference < tolerance, "{what} {}: {difference:e}", T::NAME);
+    }
+    macro_rules! compare {
+        ($name:literal, $d:literal, $crack:ident, $model:expr) => {{
+            let case = Case::read($name);
+            let material = || Ordinary::linearised($model(&case).expect("material"));
+            check::<f64, $d, _>(&case, "linear_small", &case.$crack(), material, |what, node| {
+                compare::<f64, $d>(&case, what, &|i| node(i).0);
+            });
+            check::<f32, $d, _>(&case, "linear_small", &case.$crack(), material, |what, node| {
+                compare::<f32, $d>(&case, what, &|i| node(i).0);
+            });
+        }};
+    }
+    compare!("osb_positive_2d_composite20_one", 2, segment, |c: &Case| {
+        PositiveSplit::plane(&stiffness2(c), RHO, c.influence())
+    });
+    compare!("osb_positive_3d_composite20_one", 3, polygon, |c: &Case| {
+        PositiveSplit::solid(&stiffness3(c), RHO, c.influence())
+    });
 }

@@ -78,6 +78,8 @@ fn tsai_hill() {
         let value = criterion.value(&mean);
         assert!((value / get("value") - 1.0).abs() < 1e-12, "{value} {case}");
         assert_eq!(value > 1.0, case["broken"] == 1);
+        let single = f64::from(criterion.value(&mean.map(|s| s as f32)));
+        assert!((single / get("value") - 1.0).abs() < 1e-4, "{single} {case}");
         // The 3D form agrees in the plane.
         let solid =
             TsaiHill3::new(&strengths, [get("theta_rad").cos(), get("theta_rad").sin(), 0.0]);
