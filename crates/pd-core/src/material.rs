@@ -148,6 +148,29 @@ pub trait StrainEnergy<T: Real, const D: usize>: Material<T, D> {
     }
 }
 
+/// A material that tells apart what a bond stores by a change of volume and by a change of shape.
+///
+/// It needs a dilatation θ at the nodes and an energy that is the sum of both parts; summed over a
+/// family they are its strain energy, bond by bond they are not the bond's own work (errata
+/// 002-12). The bond's own work, [`TestedBond::energy`](crate::TestedBond::energy), every material
+/// has.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not tell volumetric from deviatoric bond energy",
+    label = "no dilatation, or no energy that splits by it",
+    note = "use a criterion on the whole bond energy (`BondEnergy`) or on stretch or stress, or a \
+            linear peridynamic solid (`Ordinary<LinearSolid>`)"
+)]
+pub trait EnergySplit<T: Real, const D: usize>: Material<T, D> {
+    /// The share of `end` in (w_iso, w_shr) of a bond in Pa/Δx^D: the volumetric and the deviatoric
+    /// energy that its node stores along the bond, per βV (Willberg 4-3, 4-4; errata
+    /// 002-11, 002-22).
+    fn energy_parts(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
+    ) -> (T, T);
+}
+
 /// A material by reference, so that several bodies and a [`Symbol`](crate::Symbol) can share it.
 impl<T: Real, const D: usize, M: Material<T, D>> Material<T, D> for &M {
     type BondConst = M::BondConst;
@@ -234,5 +257,16 @@ impl<T: Real, const D: usize, M: StrainEnergy<T, D>> StrainEnergy<T, D> for &M {
         end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
     ) -> T {
         (**self).bond_energy(bond, end)
+    }
+}
+
+impl<T: Real, const D: usize, M: EnergySplit<T, D>> EnergySplit<T, D> for &M {
+    #[inline(always)]
+    fn energy_parts(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
+    ) -> (T, T) {
+        (**self).energy_parts(bond, end)
     }
 }

@@ -9,6 +9,7 @@ pub mod kinematics;
 pub mod linear_solid;
 pub mod ordinary;
 pub mod regions;
+pub mod strained;
 
 pub use anisotropic::{PolynomialMicromoduli, PositiveSplit};
 pub use bond_based::{BondBased, BondLaw, Pmb, PmbOnFamily};
@@ -22,5 +23,6 @@ pub use elasticity::{
 pub use error::{Error, Result};
 pub use kinematics::{Finite, Kinematics, Linearised};
 pub use linear_solid::{LinearSolid, MadenciOterkus};
-pub use ordinary::{Ordinary, ScalarState};
+pub use ordinary::{Ordinary, ScalarState, SplitState};
 pub use regions::Regions;
+pub use strained::Strained;

@@ -3,7 +3,7 @@
 use crate::Result;
 use nalgebra::{SMatrix, SVector};
 use pd_core::bond::{Bond, End, Member, Neighbourhood, Scale};
-use pd_core::material::{Material, StrainEnergy, StressState};
+use pd_core::material::{EnergySplit, Material, StrainEnergy, StressState};
 use pd_core::{Real, Result as CoreResult};
 
 /// R materials of one type, chosen per node: plies, inclusions, fibre and matrix. Each end of a
@@ -148,5 +148,22 @@ where
         let (r, material) = self.material(end.node.0);
         let End { state, volume, .. } = end;
         material.bond_energy(bond, End { bond: &end.bond[r], node: &end.node.1, state, volume })
+    }
+}
+
+impl<T, const D: usize, M, const R: usize> EnergySplit<T, D> for Regions<M, R>
+where
+    T: Real,
+    M: EnergySplit<T, D>,
+{
+    #[inline(always)]
+    fn energy_parts(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, M::NodeState>,
+    ) -> (T, T) {
+        let (r, material) = self.material(end.node.0);
+        let End { state, volume, .. } = end;
+        material.energy_parts(bond, End { bond: &end.bond[r], node: &end.node.1, state, volume })
     }
 }
