@@ -81,9 +81,9 @@ pub mod prelude {
         ModeEnergies, PowerLaw, Separated, Signs, Strengths, TsaiHill, TsaiHill3,
     };
     pub use pd_models::{
-        BondBased, BondLaw, Constitutive, Correspondence, Isotropic, Lamina, LinearElastic,
-        LinearSolid, MadenciOterkus, NeoHookean, Ordinary, Orthotropic, PlaneMode, Pmb,
-        PolynomialMicromoduli, PositiveSplit, Regions, SaintVenantKirchhoff, SillingControl,
+        BondAssociated, BondBased, BondLaw, Constitutive, Correspondence, Isotropic, Lamina,
+        LinearElastic, LinearSolid, MadenciOterkus, NeoHookean, Ordinary, Orthotropic, PlaneMode,
+        Pmb, PolynomialMicromoduli, PositiveSplit, Regions, SaintVenantKirchhoff, SillingControl,
         Stiffness, Strained, TransverselyIsotropic, WanControl,
     };
 }

@@ -122,6 +122,18 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
 pub trait StressState<T: Real, const D: usize>: Material<T, D> {
     /// Cauchy stress σ in Pa from the node's constants and state.
     fn stress(&self, constants: &Self::NodeConst, state: &Self::NodeState) -> SMatrix<T, D, D>;
+    /// Cauchy stress of a bond in Pa, given the `mean` of the stresses of its two nodes: the mean
+    /// itself (Hattori et al. 2018) unless the material knows better.
+    #[inline(always)]
+    fn bond_stress(
+        &self,
+        bond: &Bond<T, D>,
+        ends: [End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>; 2],
+        mean: SMatrix<T, D, D>,
+    ) -> SMatrix<T, D, D> {
+        let _ = (bond, ends);
+        mean
+    }
 }
 
 /// A material whose forces derive from an energy density W_i = node part + Σ bond part βV, in Pa.
@@ -242,6 +254,15 @@ impl<T: Real, const D: usize, M: StressState<T, D>> StressState<T, D> for &M {
     #[inline(always)]
     fn stress(&self, constants: &Self::NodeConst, state: &Self::NodeState) -> SMatrix<T, D, D> {
         (**self).stress(constants, state)
+    }
+    #[inline(always)]
+    fn bond_stress(
+        &self,
+        bond: &Bond<T, D>,
+        ends: [End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>; 2],
+        mean: SMatrix<T, D, D>,
+    ) -> SMatrix<T, D, D> {
+        (**self).bond_stress(bond, ends, mean)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Peridynamic material models: bond-based, ordinary state-based (isotropic and with any
 //! stiffness), correspondence.
 pub mod anisotropic;
+pub mod bond_associated;
 pub mod bond_based;
 pub mod correspondence;
 pub mod elasticity;
@@ -12,6 +13,7 @@ pub mod regions;
 pub mod strained;
 
 pub use anisotropic::{PolynomialMicromoduli, PositiveSplit};
+pub use bond_associated::BondAssociated;
 pub use bond_based::{BondBased, BondLaw, Pmb, PmbOnFamily};
 pub use correspondence::{
     Constitutive, Correspondence, Hyperelastic, LinearElastic, NeoHookean, NoControl,
