@@ -26,7 +26,20 @@
 //!   = note: use a criterion on bonds (critical stretch, bond energy), or a correspondence or state-based material whose nodes have a strain
 //! ```
 //!
-//! With a correspondence material the same lines compile:
+//! Willberg's criteria by mode ask for a dilatation, which bonds alone do not have:
+//!
+//! ```compile_fail,E0277
+//! use peridynamics::prelude::*;
+//! fn plate(family: Lattice<f64, 2>, moduli: &Isotropic, modes: ModeEnergies) -> Result<()> {
+//!     let mode = PlaneMode::PlaneStress;
+//!     let bonds = Pmb::plane(moduli, mode, 2500.0, InfluenceFunction::Constant).unwrap();
+//!     // error: `Ordinary<Pmb>` does not tell volumetric from deviatoric bond energy
+//!     let body = Body::new(family, Ordinary::new(bonds), Breaking::new(PowerLaw::new(modes)))?;
+//!     Ok(())
+//! }
+//! ```
+//!
+//! With a correspondence material the first lines compile:
 //!
 //! ```no_run
 //! use peridynamics::prelude::*;
@@ -93,7 +106,7 @@ pub mod prelude {
     pub use pd_core::integrator::{SymplecticEuler, VelocityVerlet};
     pub use pd_core::lattice::Lattice;
     pub use pd_core::loads::Loads;
-    pub use pd_core::material::{Material, StrainEnergy, StressState};
+    pub use pd_core::material::{EnergySplit, Material, StrainEnergy, StressState};
     pub use pd_core::points::Points;
     pub use pd_core::quadrature::Quadrature;
     pub use pd_core::region::{Ball, Cuboid, Cylinder, Disc, Shape, Within};
@@ -103,13 +116,14 @@ pub mod prelude {
     pub use pd_core::time_step::TimeStepEstimates;
     pub use pd_core::{Error, Real, Result};
     pub use pd_damage::{
-        CrackPath, CrackTip, CriterionExt, CriticalStretch, Interfaces, Signs, Strengths, TsaiHill,
-        TsaiHill3,
+        AnyOf, BondEnergy, BondModel, BondStrength, CrackOpening, CrackPath, CrackPlane, CrackTip,
+        CriterionExt, CriticalStretch, Either, FractureEnergy, FractureToughness, Interfaces,
+        ModeEnergies, PowerLaw, Separated, Signs, Strengths, TsaiHill, TsaiHill3,
     };
     pub use pd_models::{
-        BondBased, BondLaw, Constitutive, Correspondence, Isotropic, Lamina, LinearElastic,
-        LinearSolid, MadenciOterkus, Mixed, NeoHookean, Ordinary, Orthotropic, PlaneMode, Pmb,
-        PolynomialMicromoduli, PositiveSplit, Regions, SaintVenantKirchhoff, SillingControl,
-        Stiffness, TransverselyIsotropic, WanControl,
+        BondAssociated, BondBased, BondLaw, Constitutive, Correspondence, Isotropic, Lamina,
+        LinearElastic, LinearSolid, MadenciOterkus, Mixed, NeoHookean, Ordinary, Orthotropic,
+        PlaneMode, Pmb, PolynomialMicromoduli, PositiveSplit, Regions, SaintVenantKirchhoff,
+        SillingControl, Stiffness, Strained, TransverselyIsotropic, WanControl,
     };
 }

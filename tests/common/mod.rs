@@ -65,6 +65,8 @@ macro_rules! for_every_material {
         $check!(small(), flat, 2);
         $check!(small().with_control(WanControl::new(&ply(), 1.0).expect("c")), flat, 2);
         $check!(small().with_control(SillingControl::new(1e10, 1.0).expect("c")), flat, 2);
+        $check!(BondAssociated::<2, 3>::new(&ply(), RHO, OMEGA).expect("m"), flat, 2);
+        $check!(BondAssociated::<3, 6>::new(&solid(), RHO, OMEGA).expect("m"), deep, 3);
         let finite = || SaintVenantKirchhoff(solid());
         $check!(Correspondence::new(finite(), RHO, OMEGA).expect("m"), deep, 3);
         $check!(Correspondence::new(NeoHookean::new(&third), RHO, OMEGA).expect("m"), deep, 3);

@@ -4,7 +4,7 @@ use crate::bond::{Bond, End, Scale};
 use crate::crack::CrackSurface;
 use crate::family::{BondTest, Family, Pair, Tally};
 use crate::field::{Field, map_sites};
-use crate::material::Material;
+use crate::material::{EnergySplit, Material};
 use crate::record::Record;
 use crate::{Error, Real, Result};
 use nalgebra::SVector;
@@ -30,14 +30,57 @@ pub struct TestedBond<'a, T: Real, const D: usize, M: Material<T, D>, C, V> {
     pub constants: [&'a C; 2],
     /// The criterion's values at both ends.
     pub values: [&'a V; 2],
+    /// The unit of length Δx in metres, for critical values that have a dimension.
+    pub unit: f64,
 }
 
 impl<'a, T: Real, const D: usize, M: Material<T, D>, C, V> TestedBond<'a, T, D, M, C, V> {
     /// The same bond with other constants, for criteria that wrap another.
     #[inline(always)]
     pub fn with_constants<'b, N>(&'b self, constants: [&'b N; 2]) -> TestedBond<'b, T, D, M, N, V> {
-        let Self { material, bond, ends, values, .. } = *self;
-        TestedBond { material, bond, ends, constants, values }
+        let Self { material, bond, ends, values, unit, .. } = *self;
+        TestedBond { material, bond, ends, constants, values, unit }
+    }
+    /// The same bond with other constants and values, for criteria that combine others.
+    #[inline(always)]
+    pub fn seen_by<'b, N, W>(
+        &'b self,
+        constants: [&'b N; 2],
+        values: [&'b W; 2],
+    ) -> TestedBond<'b, T, D, M, N, W> {
+        let Self { material, bond, ends, unit, .. } = *self;
+        TestedBond { material, bond, ends, constants, values, unit }
+    }
+    /// Extension e = |Y| − |ξ| in units of Δx.
+    #[inline(always)]
+    pub fn extension(&self) -> T {
+        self.bond.extension(self.bond.xi.dot(&self.bond.xi).sqrt())
+    }
+    /// Bond energy w = ½(|t| + |t'|)|e| in Pa/Δx^D (Willberg 4-2 with ½, errata 002-8, 002-10).
+    ///
+    /// t = T·M, the force state along the deformed bond: for an ordinary material the whole of it.
+    /// Forces across the bond, which correspondence materials have, do no work on its extension.
+    #[inline(always)]
+    pub fn energy(&self) -> T {
+        let (xi, eta) = (self.bond.xi, self.bond.eta);
+        let y = xi + eta;
+        let (length, deformed) = (xi.dot(&xi).sqrt(), y.dot(&y).sqrt());
+        let extension = (xi + y).dot(&eta) / (deformed + length);
+        let [near, far] = self.ends;
+        let along = self.material.force_state(self.bond, near).dot(&y).abs() * near.volume
+            + self.material.force_state(&self.bond.reversed(), far).dot(&y).abs() * far.volume;
+        T::of(0.5) * along * extension.abs() / deformed
+    }
+    /// (w_iso, w_shr) in Pa/Δx^D, both ends together.
+    #[inline(always)]
+    pub fn energy_parts(&self) -> (T, T)
+    where
+        M: EnergySplit<T, D>,
+    {
+        let [near, far] = self.ends;
+        let (iso, shear) = self.material.energy_parts(self.bond, near);
+        let (iso_far, shear_far) = self.material.energy_parts(&self.bond.reversed(), far);
+        (iso * near.volume + iso_far * far.volume, shear * near.volume + shear_far * far.volume)
     }
 }
 
@@ -48,7 +91,7 @@ impl<'a, T: Real, const D: usize, M: Material<T, D>, C, V> TestedBond<'a, T, D, 
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a damage criterion for the material `{M}`",
-    note = "the criterion may need a capability (`StressState`, `StrainEnergy`) that this material \
+    note = "the criterion may need a capability (`StressState`, `EnergySplit`) that this material \
             lacks"
 )]
 pub trait DamageCriterion<T: Real, const D: usize, M: Material<T, D>>: Send + Sync {
@@ -72,6 +115,18 @@ pub trait DamageCriterion<T: Real, const D: usize, M: Material<T, D>>: Send + Sy
     ) -> Self::NodeValue {
         let _ = (material, constants, state);
         Record::zero()
+    }
+    /// Writes [`node_value`](Self::node_value). Criteria of several kinds in one scene each write
+    /// their own part and leave the others' alone.
+    #[inline(always)]
+    fn write_value(
+        &self,
+        material: &M,
+        constants: &M::NodeConst,
+        state: &M::NodeState,
+        value: &mut Self::NodeValue,
+    ) {
+        *value = self.node_value(material, constants, state);
     }
     /// Failure index of a bond: value / critical value.
     fn index(&self, bond: &TestedBond<'_, T, D, M, Self::NodeConst, Self::NodeValue>) -> T;
@@ -236,6 +291,7 @@ impl<C, const D: usize> Breaking<C, D> {
 struct CriterionTest<'a, C, M> {
     criterion: &'a C,
     material: &'a M,
+    unit: f64,
 }
 
 type MaterialNode<T, const D: usize, M> =
@@ -267,6 +323,7 @@ where
             ],
             constants: [&c0.0, &c1.0],
             values: [&c0.1, &c1.1],
+            unit: self.unit,
         };
         self.criterion.index(&tested)
     }
@@ -304,7 +361,7 @@ where
         if C::NodeValue::LEN > 0 {
             map_sites(node, check.values, |(c, s), _| self.criterion.node_value(material, &c, &s));
         }
-        let test = CriterionTest { criterion: &self.criterion, material };
+        let test = CriterionTest { criterion: &self.criterion, material, unit: family.unit() };
         family.break_bonds(&test, table, bits, u, (node, (check.constants, &*check.values)))
     }
 }

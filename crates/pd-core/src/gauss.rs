@@ -25,7 +25,7 @@ static RULE: LazyLock<[(f64, f64); POINTS]> = LazyLock::new(|| {
 });
 
 /// ∫ₐᵇ f(x) dx with 64 points: exact for polynomials up to degree 127.
-pub(crate) fn integrate(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
+pub fn integrate(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
     let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
     half * RULE.iter().map(|(x, w)| w * f(middle + half * x)).sum::<f64>()
 }

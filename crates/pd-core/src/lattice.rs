@@ -174,6 +174,11 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         self.offsets.len()
     }
 
+    /// The family of a node in the bulk: ξ in units of Δx and βV in Δx^D.
+    pub fn stencil(&self) -> impl Iterator<Item = (SVector<f64, D>, f64)> + '_ {
+        self.offsets.iter().map(|o| (o.xi64, o.volume64))
+    }
+
     fn half(&self) -> usize {
         self.offsets.len() / 2
     }

@@ -122,6 +122,18 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
 pub trait StressState<T: Real, const D: usize>: Material<T, D> {
     /// Cauchy stress σ in Pa from the node's constants and state.
     fn stress(&self, constants: &Self::NodeConst, state: &Self::NodeState) -> SMatrix<T, D, D>;
+    /// Cauchy stress in Pa that `end` sees along a bond, given the `stress` of its node: that
+    /// itself (Hattori et al. 2018) unless the material tells its bonds apart.
+    #[inline(always)]
+    fn bond_stress(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
+        stress: &SMatrix<T, D, D>,
+    ) -> SMatrix<T, D, D> {
+        let _ = (bond, end);
+        *stress
+    }
 }
 
 /// A material whose forces derive from an energy density W_i = node part + Σ bond part βV, in Pa.
@@ -146,6 +158,29 @@ pub trait StrainEnergy<T: Real, const D: usize>: Material<T, D> {
         let _ = (bond, end);
         T::zero()
     }
+}
+
+/// A material that tells apart what a bond stores by a change of volume and by a change of shape.
+///
+/// It needs a dilatation θ at the nodes and an energy that is the sum of both parts; summed over a
+/// family they are its strain energy, bond by bond they are not the bond's own work (errata
+/// 002-12). The bond's own work, [`TestedBond::energy`](crate::TestedBond::energy), every material
+/// has.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not tell volumetric from deviatoric bond energy",
+    label = "no dilatation, or no energy that splits by it",
+    note = "use a criterion on the whole bond energy (`BondEnergy`) or on stretch or stress, or a \
+            linear peridynamic solid (`Ordinary<LinearSolid>`)"
+)]
+pub trait EnergySplit<T: Real, const D: usize>: Material<T, D> {
+    /// The share of `end` in (w_iso, w_shr) of a bond in Pa/Δx^D: the volumetric and the deviatoric
+    /// energy that its node stores along the bond, per βV (Willberg 4-3, 4-4; errata
+    /// 002-11, 002-22).
+    fn energy_parts(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
+    ) -> (T, T);
 }
 
 /// A material by reference, so that several bodies and a [`Symbol`](crate::Symbol) can share it.
@@ -220,6 +255,15 @@ impl<T: Real, const D: usize, M: StressState<T, D>> StressState<T, D> for &M {
     fn stress(&self, constants: &Self::NodeConst, state: &Self::NodeState) -> SMatrix<T, D, D> {
         (**self).stress(constants, state)
     }
+    #[inline(always)]
+    fn bond_stress(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
+        stress: &SMatrix<T, D, D>,
+    ) -> SMatrix<T, D, D> {
+        (**self).bond_stress(bond, end, stress)
+    }
 }
 
 impl<T: Real, const D: usize, M: StrainEnergy<T, D>> StrainEnergy<T, D> for &M {
@@ -234,5 +278,16 @@ impl<T: Real, const D: usize, M: StrainEnergy<T, D>> StrainEnergy<T, D> for &M {
         end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
     ) -> T {
         (**self).bond_energy(bond, end)
+    }
+}
+
+impl<T: Real, const D: usize, M: EnergySplit<T, D>> EnergySplit<T, D> for &M {
+    #[inline(always)]
+    fn energy_parts(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
+    ) -> (T, T) {
+        (**self).energy_parts(bond, end)
     }
 }

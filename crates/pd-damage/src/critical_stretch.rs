@@ -1,10 +1,11 @@
 //! Critical stretch: a bond breaks when s = e/|ξ| exceeds s_c.
 
+use crate::calibration::{BondModel, BondStrength, CrackPlane, FractureEnergy, critical_size};
 use pd_core::damage::{DamageCriterion, TestedBond};
 use pd_core::{Error, Material, Real, Result};
 use std::f64::consts::PI;
 
-/// Critical stretch s_c, for any material.
+/// Critical stretch s_c, for any material. Only tension breaks.
 ///
 /// With λ = 1 + s the failure index is (λ² − 1)/(λ_c² − 1): it is 1 exactly where s = s_c, close
 /// to s/s_c for small stretches, and needs no square root.
@@ -21,51 +22,72 @@ impl CriticalStretch {
     pub fn new(stretch: f64) -> Result<Self> {
         Ok(Self { stretch: Error::positive("critical stretch s_c", stretch)? })
     }
-    fn from_square(square: f64, fracture_energy: f64, horizon: f64) -> Result<Self> {
-        Error::positive("fracture energy G₀ [N/m]", fracture_energy)?;
-        Error::positive("horizon δ [m]", horizon)?;
-        Self::new(square.sqrt())
+    /// The s_c at which a crack costs G_c. In the continuum with ω = 1 the classical values: PMB
+    /// s_c² = 5G₀/(9Kδ) in 3D, 4πG₀/(9Eδ) in plane stress, 5πG₀/(12Eδ) in plane strain.
+    ///
+    /// ```
+    /// use pd_core::InfluenceFunction;
+    /// use pd_damage::{BondModel, CrackPlane, CriticalStretch, FractureEnergy};
+    /// let (bulk, horizon, g) = (40e9, 3e-3, 100.0);
+    /// let stretch = CriticalStretch::from_energy(
+    ///     FractureEnergy::new(g)?,
+    ///     &BondModel::pmb(bulk, InfluenceFunction::Constant)?,
+    ///     &CrackPlane::<3>::continuum(horizon)?,
+    /// )?;
+    /// let square: f64 = 5.0 * g / (9.0 * bulk * horizon);
+    /// assert!((stretch.stretch() / square.sqrt() - 1.0).abs() < 1e-12);
+    /// # Ok::<(), pd_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a model whose crack costs nothing.
+    pub fn from_energy<const D: usize>(
+        energy: FractureEnergy,
+        model: &BondModel,
+        plane: &CrackPlane<D>,
+    ) -> Result<Self> {
+        Self::new(critical_size(energy, model, plane, |length| length)?)
     }
-    /// PMB (ω = 1) in 3D: s_c² = 5G₀/(9Kδ), bulk modulus K in Pa.
+    /// s_c = σ_c/E.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] unless Young's modulus in Pa is positive.
+    pub fn from_strength(strength: BondStrength, young: f64) -> Result<Self> {
+        Self::new(strength.stretch(young)?)
+    }
+    /// Willberg Eq. 5-4, 3D, as printed: s_c² = G₀/((3G + (3/4)⁴(K − 5G/3))δ), of the
+    /// Madenci–Oterkus form with the square of the mean dilatation in place of the mean square
+    /// (errata 002-18; exact for ν = ¼).
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for values that are not positive.
-    pub fn pmb_solid(fracture_energy: f64, bulk: f64, horizon: f64) -> Result<Self> {
-        let square = 5.0 * fracture_energy / (9.0 * bulk * horizon);
-        Self::from_square(square, fracture_energy, horizon)
-    }
-    /// PMB (ω = 1) in plane stress: s_c² = 4πG₀/(9Eδ), Young's modulus E in Pa.
-    ///
-    /// # Errors
-    /// As [`pmb_solid`](Self::pmb_solid).
-    pub fn pmb_plane_stress(fracture_energy: f64, young: f64, horizon: f64) -> Result<Self> {
-        let square = 4.0 * PI * fracture_energy / (9.0 * young * horizon);
-        Self::from_square(square, fracture_energy, horizon)
-    }
-    /// PMB (ω = 1) in plane strain: s_c² = 5πG₀/(12Eδ), Young's modulus E in Pa.
-    ///
-    /// # Errors
-    /// As [`pmb_solid`](Self::pmb_solid).
-    pub fn pmb_plane_strain(fracture_energy: f64, young: f64, horizon: f64) -> Result<Self> {
-        let square = 5.0 * PI * fracture_energy / (12.0 * young * horizon);
-        Self::from_square(square, fracture_energy, horizon)
-    }
-    /// Linear solid in 3D (Willberg Eq. 5-4): s_c² = G₀/((3G + (3/4)⁴(K − 5G/3))δ).
-    ///
-    /// # Errors
-    /// As [`pmb_solid`](Self::pmb_solid).
-    pub fn lps_solid(fracture_energy: f64, bulk: f64, shear: f64, horizon: f64) -> Result<Self> {
+    pub fn willberg_solid(
+        energy: FractureEnergy,
+        bulk: f64,
+        shear: f64,
+        horizon: f64,
+    ) -> Result<Self> {
         let stiffness = 3.0 * shear + 0.75_f64.powi(4) * (bulk - 5.0 * shear / 3.0);
-        Self::from_square(fracture_energy / (stiffness * horizon), fracture_energy, horizon)
+        Self::from_stiffness(energy, stiffness, horizon)
     }
-    /// Linear solid in 2D (errata 002-18): s_c² = G₀/((6G/π + 16(κ − 2G)/(9π²))δ), bulk modulus κ of
+    /// The same in 2D (errata 002-18): s_c² = G₀/((6G/π + 16(κ − 2G)/(9π²))δ), bulk modulus κ of
     /// the plane.
     ///
     /// # Errors
-    /// As [`pmb_solid`](Self::pmb_solid).
-    pub fn lps_plane(fracture_energy: f64, bulk: f64, shear: f64, horizon: f64) -> Result<Self> {
+    /// As [`willberg_solid`](Self::willberg_solid).
+    pub fn willberg_plane(
+        energy: FractureEnergy,
+        bulk: f64,
+        shear: f64,
+        horizon: f64,
+    ) -> Result<Self> {
         let stiffness = 6.0 * shear / PI + 16.0 / (9.0 * PI * PI) * (bulk - 2.0 * shear);
-        Self::from_square(fracture_energy / (stiffness * horizon), fracture_energy, horizon)
+        Self::from_stiffness(energy, stiffness, horizon)
+    }
+    fn from_stiffness(energy: FractureEnergy, stiffness: f64, horizon: f64) -> Result<Self> {
+        Error::positive("horizon δ [m]", horizon)?;
+        Error::positive("stiffness of crossing bonds [Pa]", stiffness)?;
+        Self::new((energy.value() / (stiffness * horizon)).sqrt())
     }
     /// s_c.
     pub fn stretch(&self) -> f64 {

@@ -81,13 +81,27 @@ impl Limits {
     }
 }
 
-/// Tsai–Hill in 2D: with the mean stress of the two nodes in the fibre's frame,
+/// sin²ψ₀ of [`TsaiHill::with_bridging_fibres`], ψ₀ = 17.5°: on a square lattice some bond lies
+/// closer to any fibre, and no bond of the next direction does.
+const BRIDGING: f64 = 0.09;
+
+/// What the matrix part of the criterion weighs for a bond at the angle ψ to the fibre, from
+/// cos²ψ: min(1, sin²ψ/sin²ψ₀) where fibres bridge, else 1.
+#[inline(always)]
+fn matrix_share<T: Real>(bridging: bool, cos2: T) -> T {
+    let share = (T::one() - cos2) * T::of(1.0 / BRIDGING);
+    if bridging && share < T::one() { share } else { T::one() }
+}
+
+/// Tsai–Hill in 2D: with the mean stress of the two ends of the bond in the fibre's frame
+/// ([`StressState::bond_stress`]: that of the nodes unless the material tells its bonds apart),
 /// (σ_L/σ_Lu)² + (σ_T/σ_Tu)² − σ_Lσ_T/σ_Lu² + (τ/τ_u)² > 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TsaiHill {
     limits: Limits,
     cos: f64,
     sin: f64,
+    bridging: bool,
 }
 
 impl TsaiHill {
@@ -105,7 +119,16 @@ impl TsaiHill {
     pub fn with_signs(strengths: &Strengths, angle: f64, signs: Signs) -> Result<Self> {
         Error::check(angle.is_finite(), "fibre angle [rad]", angle, "finite")?;
         let (sin, cos) = angle.sin_cos();
-        Ok(Self { limits: Limits::new(strengths, signs)?, cos, sin })
+        Ok(Self { limits: Limits::new(strengths, signs)?, cos, sin, bridging: false })
+    }
+    /// Matrix failure spares the bonds along the fibre: the terms of σ_T and τ weigh
+    /// min(1, sin²ψ/sin²ψ₀), ψ₀ = 17.5°, for a bond at the angle ψ to the fibre. A matrix crack
+    /// runs between fibres and severs what crosses it. As printed (the default) it severs the
+    /// fibres too, so that a crack may run on straight through them.
+    #[must_use]
+    pub fn with_bridging_fibres(mut self) -> Self {
+        self.bridging = true;
+        self
     }
     /// (σ_L, σ_T, τ_LT) of a stress (Eqs. 28, 29).
     #[inline(always)]
@@ -120,16 +143,28 @@ impl TsaiHill {
     /// The left side of Eq. 26.
     #[inline(always)]
     pub fn value<T: Real>(&self, stress: &SMatrix<T, 2, 2>) -> T {
+        let (fibre, matrix) = self.parts(stress);
+        fibre + matrix
+    }
+    /// The terms with σ_L and those of the matrix, (σ_T/σ_Tu)² + (τ/τ_u)².
+    #[inline(always)]
+    pub fn parts<T: Real>(&self, stress: &SMatrix<T, 2, 2>) -> (T, T) {
         let (l, t, tau) = self.in_fibre_frame(stress);
         let (wl, wt) = (self.limits.along.of(l), self.limits.across.of(t));
-        l * l * wl + t * t * wt - l * t * wl + tau * tau * T::of(self.limits.shear)
+        (l * l * wl - l * t * wl, t * t * wt + tau * tau * T::of(self.limits.shear))
     }
 }
 
-/// Mean stress of the two nodes of a bond.
+/// Mean of the stresses that the two ends of a bond see.
 #[inline(always)]
-fn mean<T: Real, const D: usize>(values: [&SMatrix<T, D, D>; 2]) -> SMatrix<T, D, D> {
-    (values[0] + values[1]) * T::of(0.5)
+fn bond_stress<T: Real, const D: usize, M: StressState<T, D>>(
+    tested: &TestedBond<'_, T, D, M, (), SMatrix<T, D, D>>,
+) -> SMatrix<T, D, D> {
+    let [near, far] = tested.ends;
+    let [a, b] = tested.values;
+    (tested.material.bond_stress(tested.bond, near, a)
+        + tested.material.bond_stress(&tested.bond.reversed(), far, b))
+        * T::of(0.5)
 }
 
 impl<T: Real, M: StressState<T, 2>> DamageCriterion<T, 2, M> for TsaiHill {
@@ -142,7 +177,10 @@ impl<T: Real, M: StressState<T, 2>> DamageCriterion<T, 2, M> for TsaiHill {
     }
     #[inline(always)]
     fn index(&self, tested: &TestedBond<'_, T, 2, M, (), SMatrix<T, 2, 2>>) -> T {
-        self.value(&mean(tested.values))
+        let (fibre, matrix) = self.parts(&bond_stress(tested));
+        let xi = tested.bond.xi;
+        let along = xi[0] * T::of(self.cos) + xi[1] * T::of(self.sin);
+        fibre + matrix * matrix_share(self.bridging, along * along / xi.dot(&xi))
     }
 }
 
@@ -154,6 +192,7 @@ impl<T: Real, M: StressState<T, 2>> DamageCriterion<T, 2, M> for TsaiHill {
 pub struct TsaiHill3 {
     limits: Limits,
     fibre: Vector3<f64>,
+    bridging: bool,
 }
 
 impl TsaiHill3 {
@@ -172,11 +211,24 @@ impl TsaiHill3 {
     pub fn with_signs(strengths: &Strengths3, fibre: [f64; 3], signs: Signs) -> Result<Self> {
         let fibre = Vector3::from(fibre);
         Error::positive("length of the fibre vector", fibre.norm())?;
-        Ok(Self { limits: Limits::new(strengths, signs)?, fibre: fibre.normalize() })
+        let limits = Limits::new(strengths, signs)?;
+        Ok(Self { limits, fibre: fibre.normalize(), bridging: false })
+    }
+    /// As [`TsaiHill::with_bridging_fibres`].
+    #[must_use]
+    pub fn with_bridging_fibres(mut self) -> Self {
+        self.bridging = true;
+        self
     }
     /// The left side of the criterion.
     #[inline(always)]
-    pub fn value<T: Real>(&self, s: &SMatrix<T, 3, 3>) -> T {
+    pub fn value<T: Real>(&self, stress: &SMatrix<T, 3, 3>) -> T {
+        let (fibre, matrix) = self.parts(stress);
+        fibre + matrix
+    }
+    /// The terms with σ_L and those of the matrix.
+    #[inline(always)]
+    pub fn parts<T: Real>(&self, s: &SMatrix<T, 3, 3>) -> (T, T) {
         let f: SVector<T, 3> = self.fibre.map(T::of);
         let traction =
             SVector::<T, 3>::from_fn(|i, _| s[(i, 0)] * f[0] + s[(i, 1)] * f[1] + s[(i, 2)] * f[2]);
@@ -191,10 +243,10 @@ impl TsaiHill3 {
         let (wl, wt) = (self.limits.along.of(along), self.limits.across.of(across));
         let own = T::of(self.limits.along.tension);
         let coupling = if wt > T::zero() { own - wt - wt } else { T::zero() };
-        along * along * wl - along * across * wl
-            + squares * wt
-            + coupling * product
-            + shear2 * T::of(self.limits.shear)
+        (
+            along * along * wl - along * across * wl,
+            squares * wt + coupling * product + shear2 * T::of(self.limits.shear),
+        )
     }
 }
 
@@ -208,6 +260,9 @@ impl<T: Real, M: StressState<T, 3>> DamageCriterion<T, 3, M> for TsaiHill3 {
     }
     #[inline(always)]
     fn index(&self, tested: &TestedBond<'_, T, 3, M, (), SMatrix<T, 3, 3>>) -> T {
-        self.value(&mean(tested.values))
+        let (fibre, matrix) = self.parts(&bond_stress(tested));
+        let xi = tested.bond.xi;
+        let along = xi.dot(&self.fibre.map(T::of));
+        fibre + matrix * matrix_share(self.bridging, along * along / xi.dot(&xi))
     }
 }

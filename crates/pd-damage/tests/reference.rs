@@ -50,6 +50,7 @@ fn critical_stretch() {
             ends: [end, end],
             constants: [&(), &()],
             values: [&(), &()],
+            unit: 1.0,
         };
         let index = criterion.index(&tested);
         assert_eq!(index > 1.0, case["stretch_broken"] == 1, "{case}");

@@ -327,17 +327,7 @@ impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSpli
             self.inverse_factor * embed(&(moment / m), 0.0) * self.inverse_factor.transpose();
         let values = scaled.symmetric_eigenvalues();
         let k0 = self.kappa / values.max();
-        let own = embed(&(moment / m), 1.0).symmetric_eigenvalues();
-        let condition = own.max() / own.min();
-        let inverse = moment.try_inverse().filter(|_| condition > 0.0 && condition < LIMIT);
-        let Some(inverse) = inverse else {
-            return Err(pd_core::Error::SingularShapeTensor {
-                node: family.node,
-                condition: if condition > 0.0 { condition } else { f64::INFINITY },
-                limit: LIMIT,
-                neighbours: family.members.len(),
-            });
-        };
+        let inverse = inverse_moment(&moment, m, family.node, family.members.len())?;
         let rest = self.stiffness - moment * (k0 / m);
         let spread = inverse * rest * inverse;
         Ok((T::of(k0 / m), spread.map(T::of)))
@@ -354,6 +344,24 @@ impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSpli
     fn scalar_force(&self, e: T, k: &SplitBond<T, V>, k0_over_m: &T, state: &SVector<T, V>) -> T {
         *k0_over_m * k.omega * e + k.strain.dot(state)
     }
+}
+
+/// 𝓜⁻¹, unless the family cannot tell all strains apart; m = Σω|ξ|²βV.
+pub(crate) fn inverse_moment<const V: usize>(
+    moment: &SMatrix<f64, V, V>,
+    m: f64,
+    node: usize,
+    neighbours: usize,
+) -> CoreResult<SMatrix<f64, V, V>> {
+    let values = embed(&(moment / m), 1.0).symmetric_eigenvalues();
+    let condition = values.max() / values.min();
+    let inverse = moment.try_inverse().filter(|_| condition > 0.0 && condition < LIMIT);
+    inverse.ok_or(pd_core::Error::SingularShapeTensor {
+        node,
+        condition: if condition > 0.0 { condition } else { f64::INFINITY },
+        limit: LIMIT,
+        neighbours,
+    })
 }
 
 /// Largest condition number of 𝓜: beyond, the family cannot tell all strains apart.

@@ -206,7 +206,7 @@ impl SillingControl {
     }
 }
 
-fn checked_strength(g: f64) -> Result<f64> {
+pub(crate) fn checked_strength(g: f64) -> Result<f64> {
     Ok(pd_core::Error::check(g.is_finite() && g >= 0.0, "control strength g", g, "finite and ≥ 0")?)
 }
 

@@ -1,6 +1,7 @@
 //! Peridynamic material models: bond-based, ordinary state-based (isotropic and with any
 //! stiffness), correspondence.
 pub mod anisotropic;
+pub mod bond_associated;
 pub mod bond_based;
 pub mod correspondence;
 pub mod elasticity;
@@ -9,8 +10,10 @@ pub mod kinematics;
 pub mod linear_solid;
 pub mod ordinary;
 pub mod regions;
+pub mod strained;
 
 pub use anisotropic::{PolynomialMicromoduli, PositiveSplit};
+pub use bond_associated::BondAssociated;
 pub use bond_based::{BondBased, BondLaw, Pmb, PmbOnFamily};
 pub use correspondence::{
     Constitutive, Correspondence, Hyperelastic, LinearElastic, NeoHookean, NoControl,
@@ -22,5 +25,6 @@ pub use elasticity::{
 pub use error::{Error, Result};
 pub use kinematics::{Finite, Kinematics, Linearised};
 pub use linear_solid::{LinearSolid, MadenciOterkus, MadenciOterkusPrinted};
-pub use ordinary::{Ordinary, ScalarState};
+pub use ordinary::{Ordinary, ScalarState, SplitState};
 pub use regions::{Mixed, Regions};
+pub use strained::Strained;

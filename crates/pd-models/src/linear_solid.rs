@@ -3,7 +3,7 @@
 use crate::Result;
 use crate::elasticity::{Isotropic, PlaneMode};
 use crate::kinematics::BondLength;
-use crate::ordinary::ScalarState;
+use crate::ordinary::{ScalarState, SplitState};
 use nalgebra::SVector;
 use pd_core::bond::{Bond, End, Neighbourhood, Scale};
 use pd_core::influence::Influence;
@@ -105,6 +105,21 @@ impl<T: Real, const D: usize> ScalarState<T, D> for LinearSolid {
     fn scalar_force(&self, e: T, k: &(T, T), inverse_m: &T, state: &T) -> T {
         let volumetric = T::of(D as f64 * self.kappa - self.alpha / D as f64);
         volumetric * *state * k.1 + T::of(self.alpha) * *inverse_m * k.0 * e
+    }
+}
+
+/// w_iso = ½ω|ξ|²κθ²/m and w_shr = ½ω(α/m)(e − θ|ξ|/D)² of one node (Willberg 4-3, 4-4; errata
+/// 002-11, 002-22).
+impl<T: Real, const D: usize> SplitState<T, D> for LinearSolid {
+    #[inline(always)]
+    fn energy_parts(&self, e: T, length: T, k: &(T, T), inverse_m: &T, state: &T) -> (T, T) {
+        let theta = self.dilatation(*inverse_m, *state);
+        let weight = T::of(0.5) * k.0 * *inverse_m;
+        let deviatoric = e - theta * length * T::of(1.0 / D as f64);
+        (
+            weight * T::of(self.kappa) * theta * theta * length * length,
+            weight * T::of(self.alpha) * deviatoric * deviatoric,
+        )
     }
 }
 

@@ -7,7 +7,7 @@
 use crate::kinematics::{BondLength, Finite, Kinematics, Linearised};
 use nalgebra::SVector;
 use pd_core::bond::{Bond, End, Neighbourhood, Scale};
-use pd_core::material::{Material, StrainEnergy};
+use pd_core::material::{EnergySplit, Material, StrainEnergy};
 use pd_core::record::Record;
 use pd_core::{Real, Result};
 
@@ -63,6 +63,19 @@ pub trait ScalarState<T: Real, const D: usize>: Send + Sync {
         constants: &Self::NodeConst,
         state: &Self::NodeState,
     ) -> T;
+}
+
+/// A model whose bond energy splits into that of volume change and that of shape change.
+pub trait SplitState<T: Real, const D: usize>: ScalarState<T, D> {
+    /// (w_iso, w_shr) that the node stores along a bond of extension `e` and length |ξ|, per βV.
+    fn energy_parts(
+        &self,
+        e: T,
+        length: T,
+        k: &Self::BondConst,
+        constants: &Self::NodeConst,
+        state: &Self::NodeState,
+    ) -> (T, T);
 }
 
 /// A material from a [`ScalarState`] and [`Kinematics`].
@@ -169,5 +182,22 @@ where
     ) -> T {
         let (e, _) = K::extension_and_direction(bond, end.bond.0);
         T::of(0.5) * e * self.model.scalar_force(e, &end.bond.1, end.node, end.state)
+    }
+}
+
+impl<T, const D: usize, S, K> EnergySplit<T, D> for Ordinary<S, K>
+where
+    T: Real,
+    S: SplitState<T, D>,
+    K: Kinematics,
+{
+    #[inline(always)]
+    fn energy_parts(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>,
+    ) -> (T, T) {
+        let (e, _) = K::extension_and_direction(bond, end.bond.0);
+        self.model.energy_parts(e, end.bond.0.length, &end.bond.1, end.node, end.state)
     }
 }

@@ -3,7 +3,7 @@
 use crate::Result;
 use nalgebra::{SMatrix, SVector};
 use pd_core::bond::{Bond, End, Member, Neighbourhood, Scale};
-use pd_core::material::{Material, StrainEnergy, StressState};
+use pd_core::material::{EnergySplit, Material, StrainEnergy, StressState};
 use pd_core::record::Record;
 use pd_core::{Real, Result as CoreResult};
 
@@ -125,6 +125,18 @@ where
     fn stress(&self, (tag, constants): &Self::NodeConst, state: &M::NodeState) -> SMatrix<T, D, D> {
         self.material(*tag).1.stress(constants, state)
     }
+    #[inline(always)]
+    fn bond_stress(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, M::NodeState>,
+        stress: &SMatrix<T, D, D>,
+    ) -> SMatrix<T, D, D> {
+        let (r, material) = self.material(end.node.0);
+        let End { state, volume, .. } = end;
+        let own = End { bond: &end.bond[r], node: &end.node.1, state, volume };
+        material.bond_stress(bond, own, stress)
+    }
 }
 
 impl<T, const D: usize, M, const R: usize> StrainEnergy<T, D> for Regions<M, R>
@@ -145,6 +157,23 @@ where
         let (r, material) = self.material(end.node.0);
         let End { state, volume, .. } = end;
         material.bond_energy(bond, End { bond: &end.bond[r], node: &end.node.1, state, volume })
+    }
+}
+
+impl<T, const D: usize, M, const R: usize> EnergySplit<T, D> for Regions<M, R>
+where
+    T: Real,
+    M: EnergySplit<T, D>,
+{
+    #[inline(always)]
+    fn energy_parts(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, M::NodeState>,
+    ) -> (T, T) {
+        let (r, material) = self.material(end.node.0);
+        let End { state, volume, .. } = end;
+        material.energy_parts(bond, End { bond: &end.bond[r], node: &end.node.1, state, volume })
     }
 }
 
@@ -301,6 +330,21 @@ where
         (s, t): &Self::NodeState,
     ) -> SMatrix<T, D, D> {
         if second(*tag) { self.second.stress(d, t) } else { self.first.stress(c, s) }
+    }
+    #[inline(always)]
+    fn bond_stress(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>,
+        stress: &SMatrix<T, D, D>,
+    ) -> SMatrix<T, D, D> {
+        let tag = end.node.0;
+        let (a, b) = ends!(end);
+        if second(tag) {
+            self.second.bond_stress(bond, b, stress)
+        } else {
+            self.first.bond_stress(bond, a, stress)
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Stiffness;
 use crate::Result;
-use nalgebra::{Matrix3, SVector};
+use nalgebra::{Matrix3, SMatrix, SVector};
 use pd_core::Error;
 
 /// A plane wave: speed c in m/s and polarisation.
@@ -15,16 +15,22 @@ pub struct Wave<const D: usize> {
 }
 
 impl<const D: usize> Stiffness<D> {
-    /// Eigenvalues ρc² and eigenvectors of Γ_ik = C_ijkl n_j n_l, largest first.
+    /// Acoustic (Christoffel) tensor Γ_ik = C_ijkl n_j n_l of a unit direction n, in Pa.
+    pub fn acoustic(&self, n: &SVector<f64, D>) -> SMatrix<f64, D, D> {
+        SMatrix::from_fn(|i, k| {
+            let row = |j: usize| -> f64 { (0..D).map(|l| self.c(i, j, k, l) * n[l]).sum() };
+            (0..D).map(|j| n[j] * row(j)).sum()
+        })
+    }
+    /// Eigenvalues ρc² and eigenvectors of Γ, largest first.
     fn christoffel(&self, n: &SVector<f64, D>) -> [(f64, SVector<f64, D>); D] {
         // One fixed size serves 2D and 3D: the axis that is not there gets a negative eigenvalue,
         // which comes last because Γ is positive definite.
-        let gamma = Matrix3::from_fn(|i, k| {
-            if i.max(k) >= D {
-                return if i == k { -1.0 } else { 0.0 };
-            }
-            let row = |j: usize| -> f64 { (0..D).map(|l| self.c(i, j, k, l) * n[l]).sum() };
-            (0..D).map(|j| n[j] * row(j)).sum()
+        let acoustic = self.acoustic(n);
+        let gamma = Matrix3::from_fn(|i, k| match (i.max(k) < D, i == k) {
+            (true, _) => acoustic[(i, k)],
+            (false, true) => -1.0,
+            (false, false) => 0.0,
         });
         let eigen = gamma.symmetric_eigen();
         let mut order = [0, 1, 2];
