@@ -60,6 +60,7 @@ pub mod prelude {
     pub use pd_core::region::{Ball, Cuboid, Cylinder, Disc, Shape, Within};
     pub use pd_core::run::{Energies, Flow, Observer, Run, TimeStep, View, reaction};
     pub use pd_core::shape::{IllConditioned, ShapePolicy};
+    pub use pd_core::statics::{Solved, Statics};
     pub use pd_core::symbol::{Stability, Symbol};
     pub use pd_core::{Error, Real, Result};
     pub use pd_damage::{
@@ -69,6 +70,6 @@ pub mod prelude {
         BondBased, BondLaw, Constitutive, Correspondence, Isotropic, Lamina, LinearElastic,
         LinearSolid, MadenciOterkus, NeoHookean, Ordinary, Orthotropic, PlaneMode, Pmb,
         PolynomialMicromoduli, PositiveSplit, Regions, SaintVenantKirchhoff, SillingControl,
-        Stiffness, TransverselyIsotropic, WanControl,
+        Stiffness, Stroh, TransverselyIsotropic, WanControl, elasticity_tensor,
     };
 }

@@ -134,6 +134,33 @@ impl<const D: usize, const S: usize> PolynomialMicromoduli<D, S> {
     }
 }
 
+impl<const D: usize, const S: usize> PolynomialMicromoduli<D, S> {
+    /// Stiffness in Pa (Voigt) of a family of bonds (ξ, βV), in any unit of length, whose horizon is
+    /// `horizon` (Scabbia Eq. 42):
+    ///
+    /// C = (1/m) Σ ω|ξ|² k⟨n⟩ v vᵀ βV + (1/m²) S λ Sᵀ, S = Σ ω|ξ|² v sᵀ βV,
+    ///
+    /// with v the products n_i n_j and s those of them that are shears. The double sum of the paper
+    /// is the product S λ Sᵀ.
+    pub fn elasticity_tensor<const V: usize>(
+        &self,
+        family: &[(SVector<f64, D>, f64)],
+        horizon: f64,
+    ) -> SMatrix<f64, V, V> {
+        let (mut m, mut bonds, mut shear) = (0.0, SMatrix::zeros(), SMatrix::<f64, V, S>::zeros());
+        for (xi, volume) in family {
+            let n = xi.normalize();
+            let v: SVector<f64, V> = voigt_direction(&n);
+            let products: SVector<f64, S> = shear_products(&n);
+            let weight = self.influence.weight(xi.norm() / horizon) * xi.norm_squared() * volume;
+            m += weight;
+            bonds += v * v.transpose() * (weight * self.micromodulus(&n));
+            shear += v * products.transpose() * weight;
+        }
+        bonds / m + shear * self.lambda * shear.transpose() / (m * m)
+    }
+}
+
 /// Shear products n_a n_b of a direction: xy in 2D; yz, xz, xy in 3D.
 fn shear_products<const D: usize, const S: usize>(n: &SVector<f64, D>) -> SVector<f64, S> {
     SVector::from_fn(|r, _| if D == 2 { n[0] * n[1] } else { n[(r + 1) % 3] * n[(r + 2) % 3] })

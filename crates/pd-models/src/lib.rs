@@ -8,6 +8,7 @@ pub mod error;
 pub mod kinematics;
 pub mod linear_solid;
 pub mod ordinary;
+pub mod probe;
 pub mod regions;
 
 pub use anisotropic::{PolynomialMicromoduli, PositiveSplit};
@@ -17,10 +18,12 @@ pub use correspondence::{
     SaintVenantKirchhoff, SillingControl, WanControl, ZeroEnergyControl,
 };
 pub use elasticity::{
-    Isotropic, Lamina, Orthotropic, PlaneMode, Stiffness, TransverselyIsotropic, Wave,
+    Intensity, Isotropic, Lamina, Orthotropic, PlaneMode, Stiffness, Stroh, TransverselyIsotropic,
+    Wave,
 };
 pub use error::{Error, Result};
 pub use kinematics::{Finite, Kinematics, Linearised};
 pub use linear_solid::{LinearSolid, MadenciOterkus};
 pub use ordinary::{Ordinary, ScalarState};
+pub use probe::elasticity_tensor;
 pub use regions::Regions;
