@@ -68,7 +68,7 @@ pub mod prelude {
     };
     pub use pd_models::{
         BondBased, BondLaw, Constitutive, Correspondence, Isotropic, Lamina, LinearElastic,
-        LinearSolid, MadenciOterkus, NeoHookean, Ordinary, Orthotropic, PlaneMode, Pmb,
+        LinearSolid, MadenciOterkus, NeoHookean, OnFamily, Ordinary, Orthotropic, PlaneMode, Pmb,
         PolynomialMicromoduli, PositiveSplit, Regions, SaintVenantKirchhoff, SillingControl,
         Stiffness, Stroh, TransverselyIsotropic, WanControl, elasticity_tensor,
     };

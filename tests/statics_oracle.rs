@@ -7,7 +7,7 @@ use peridynamics::prelude::*;
 /// A plate with a notch in its outline; a block.
 fn small<const D: usize>() -> Grid<D> {
     let edges: [f64; D] =
-        std::array::from_fn(|d| [9.0, 7.0, 4.0][d] - if D == 3 { 3.0 } else { 0.0 });
+        std::array::from_fn(|d| if D == 2 { [9.0, 7.0][d] } else { [6.0, 5.0, 4.0][d] });
     let grid = Grid::new(&Cuboid::centred(edges.map(|e| e * 1e-3)).expect("box"), 1e-3);
     grid.expect("grid").retain(|x| !(x[0].abs() < 1.1e-3 && x[1] > 2.1e-3)).expect("grid")
 }

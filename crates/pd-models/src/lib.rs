@@ -10,6 +10,7 @@ pub mod linear_solid;
 pub mod ordinary;
 pub mod probe;
 pub mod regions;
+pub mod surface;
 
 pub use anisotropic::{PolynomialMicromoduli, PositiveSplit};
 pub use bond_based::{BondBased, BondLaw, Pmb, PmbOnFamily};
@@ -27,3 +28,4 @@ pub use linear_solid::{LinearSolid, MadenciOterkus};
 pub use ordinary::{Ordinary, ScalarState};
 pub use probe::elasticity_tensor;
 pub use regions::Regions;
+pub use surface::OnFamily;

@@ -1,2 +1,3 @@
 //! Problems with known solutions, for tests, benches and examples. Not published.
+pub mod fem;
 pub mod oracle;
