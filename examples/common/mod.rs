@@ -58,6 +58,14 @@ pub fn reported(name: &str, got: f64) {
     println!("{name} | – | {got:.3e} | –");
 }
 
+/// Prints a figure beside its reference, not judged, with the relative difference.
+pub fn compared(name: &str, reference: f64, got: f64) {
+    println!(
+        "{name} | {reference:.4e} | {got:.4e} ({:+.1} %) | –",
+        100.0 * (got / reference - 1.0)
+    );
+}
+
 /// A progress line for a static solution.
 pub fn watch(label: &str) -> impl FnMut(pd_progress::Progress) + '_ {
     move |p| {
