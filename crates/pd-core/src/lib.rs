@@ -6,6 +6,7 @@
 pub mod body;
 pub mod bond;
 pub mod cloud;
+pub mod convergence;
 pub mod crack;
 pub mod damage;
 mod diagonal;
