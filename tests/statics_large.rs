@@ -12,7 +12,7 @@ fn peak() -> Option<f64> {
 }
 
 #[test]
-#[ignore = "a minute"]
+#[ignore = "some minutes"]
 fn a_million_unknowns() {
     let cells = 70.0;
     let grid = Grid::new(&Cuboid::centred([cells; 3]).expect("box"), 1.0).expect("grid");
