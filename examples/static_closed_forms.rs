@@ -72,7 +72,10 @@ fn draw(name: &str, solved: &Solved, dx: f64) -> Outcome {
     FieldMap::new(&places, dx, &values)
         .title(&format!("{name}: error of u"))
         .colours(ColourMap::Damage)
-        .write(format!("out/static_closed_forms/{}.png", name.replace(' ', "_")))?;
+        .write(format!(
+            "out/static_closed_forms/{}.png",
+            name.replace(' ', "_").replace('°', "")
+        ))?;
     Ok(())
 }
 
@@ -162,7 +165,10 @@ fn hole(name: &str, ply: &Lamina, column: &str, degrees: f64, dx: f64, limit: f6
     LinePlot::new(&format!("hoop stress, {name}"), "angle from x [°]", "over remote stress")
         .line("closed form", &line(exact))
         .line("peridynamic", &line(&got))
-        .write(format!("out/static_closed_forms/hoop_{}.png", name.replace(' ', "_")))?;
+        .write(format!(
+            "out/static_closed_forms/hoop_{}.png",
+            name.replace(' ', "_").replace('°', "")
+        ))?;
     Ok(())
 }
 
