@@ -31,6 +31,58 @@ fn positive_split_has_the_stiffness_everywhere() {
     }
 }
 
+/// Bonds that carry more along a fibre change neither the stiffness nor the stability.
+#[test]
+fn positive_split_along_a_fibre() {
+    let fibre = [0.6_f64.cos(), 0.6_f64.sin()];
+    let c = common::ply().voigt();
+    for r in [0.0, 4.0, 1e3] {
+        let split = PositiveSplit::plane(&common::ply(), 1e3, common::OMEGA).expect("material");
+        let split = split.with_fibre(fibre, r).expect("fibre");
+        let material: Ordinary<_, Linearised> = Ordinary::linearised(split);
+        let symbol = Symbol::of(&material, 1e-3, Horizon::Cells(3.0), Quadrature::Exact);
+        let stability = symbol.expect("symbol").stability();
+        assert!(matches!(stability, Stability::Stable(_)), "r = {r}: {stability}");
+        let body = Body::new(family2(2.0, Quadrature::Exact), material, NoDamage).expect("body");
+        for node in 0..body.nodes() {
+            let got = elasticity_tensor::<_, 2, 3, _, _, _>(&body, node);
+            assert!((got - c).amax() < 1e-9 * c.amax(), "r = {r}, node {node}: {got}");
+        }
+    }
+    let split = || PositiveSplit::plane(&common::ply(), 1e3, common::OMEGA).expect("material");
+    assert!(split().with_fibre([0.0, 0.0], 1.0).is_err());
+    assert!(split().with_fibre([1.0, 0.0], -0.1).is_err());
+}
+
+/// The surface correction brings the stiffness of boundary nodes nearer to C and leaves one factor
+/// per node.
+#[test]
+fn surface_correction() {
+    use peridynamics::models::OnFamily;
+    let c = common::ply().voigt();
+    let model = PolynomialMicromoduli::plane(&common::ply(), 1e3, common::OMEGA).expect("m");
+    let plain = Ordinary::<_, Linearised>::linearised(model.clone());
+    let better = Ordinary::<_, Linearised>::linearised(OnFamily::new(model, &common::ply()));
+    let plain = Body::new(family2(3.0, Quadrature::Exact), plain, NoDamage).expect("body");
+    let better = Body::new(family2(3.0, Quadrature::Exact), better, NoDamage).expect("body");
+    let mut gain = 0.0_f64;
+    for node in 0..plain.nodes() {
+        let own = elasticity_tensor::<_, 2, 3, _, _, _>(&plain, node);
+        let got = elasticity_tensor::<_, 2, 3, _, _, _>(&better, node);
+        let g = got[(0, 0)] / own[(0, 0)];
+        assert!((got - own * g).amax() < 1e-9 * c.amax(), "one factor: {g}");
+        // Nearest in the norm of tensors, which counts C_ijxy twice and C_xyxy four times.
+        let norm = |a: SMatrix<f64, 3, 3>| -> f64 {
+            let weight = |i: usize| if i == 2 { 2.0 } else { 1.0 };
+            let sum = (0..9).map(|k| weight(k / 3) * weight(k % 3) * a[(k / 3, k % 3)].powi(2));
+            sum.sum::<f64>().sqrt()
+        };
+        assert!(norm(got - c) <= norm(own - c) * (1.0 + 1e-9), "node {node}");
+        gain = gain.max(1.0 - norm(got - c) / norm(own - c));
+    }
+    assert!(gain > 0.3, "at some node it helps: {gain}");
+}
+
 /// So has correspondence, with finite strain and with control too.
 #[test]
 fn correspondence_has_the_stiffness_everywhere() {
