@@ -112,6 +112,7 @@ pub mod prelude {
     pub use pd_core::region::{Ball, Cuboid, Cylinder, Disc, Shape, Within};
     pub use pd_core::run::{Energies, Flow, Margin, Observer, Run, TimeStep, View, reaction};
     pub use pd_core::shape::{IllConditioned, ShapePolicy};
+    pub use pd_core::statics::{Solved, Statics};
     pub use pd_core::symbol::{Stability, Symbol};
     pub use pd_core::time_step::TimeStepEstimates;
     pub use pd_core::{Error, Real, Result};
@@ -122,8 +123,9 @@ pub mod prelude {
     };
     pub use pd_models::{
         BondAssociated, BondBased, BondLaw, Constitutive, Correspondence, Isotropic, Lamina,
-        LinearElastic, LinearSolid, MadenciOterkus, Mixed, NeoHookean, Ordinary, Orthotropic,
-        PlaneMode, Pmb, PolynomialMicromoduli, PositiveSplit, Regions, SaintVenantKirchhoff,
-        SillingControl, Stiffness, Strained, TransverselyIsotropic, WanControl,
+        LinearElastic, LinearSolid, MadenciOterkus, Mixed, NeoHookean, OnFamily, Ordinary,
+        Orthotropic, PlaneMode, Pmb, PolynomialMicromoduli, PositiveSplit, Regions,
+        SaintVenantKirchhoff, SillingControl, Stiffness, Strained, Stroh, TransverselyIsotropic,
+        WanControl, elasticity_tensor,
     };
 }

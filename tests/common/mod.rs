@@ -72,3 +72,33 @@ macro_rules! for_every_material {
         $check!(Correspondence::new(NeoHookean::new(&third), RHO, OMEGA).expect("m"), deep, 3);
     }};
 }
+
+/// V K of a body about its reference configuration, column by column from differences of forces:
+/// dense, in N/m per unit of u in Δx, rows and columns D·node + axis.
+pub fn dense_stiffness<T, const D: usize, B>(body: &mut B) -> nalgebra::DMatrix<f64>
+where
+    T: Real,
+    B: Dynamics<T, D>,
+{
+    let n = D * body.nodes();
+    let step = T::EPSILON.cbrt();
+    let mut k = nalgebra::DMatrix::zeros(n, n);
+    for column in 0..n {
+        let site = body.site(column / D);
+        for sign in [1.0, -1.0] {
+            let mut u = SVector::zeros();
+            u[column % D] = T::of(sign * step);
+            body.u_mut().set(site, u);
+            body.evaluate().expect("forces");
+            for node in 0..body.nodes() {
+                let f = body.force().get(body.site(node)).map(Real::to_f64);
+                for axis in 0..D {
+                    k[(D * node + axis, column)] -=
+                        sign * f[axis] * body.volume(node) / (2.0 * step);
+                }
+            }
+        }
+        body.u_mut().set(site, SVector::zeros());
+    }
+    k
+}

@@ -414,6 +414,29 @@ where
         }
     }
 
+    /// Stress Σ T⟨ξ⟩⊗ξ βV in Pa that the intact family of a node has under the homogeneous
+    /// displacement gradient `h`, u = H x. It does not depend on the body's displacements, nor
+    /// changes them. For an elastic material it is ∂W/∂H.
+    pub fn stress_under(&self, node: usize, h: &SMatrix<f64, D, D>) -> SMatrix<f64, D, D> {
+        let mut members = Vec::new();
+        self.family.members(node, &self.table, self.bits.as_ref(), &mut members);
+        let (constants, of_family) = (self.constants(node), self.family_constants(node));
+        let bond = |xi: &SVector<f64, D>| Bond { xi: xi.map(T::of), eta: (h * xi).map(T::of) };
+        let mut sum = M::FamilySum::zero();
+        for m in &members {
+            let volume = T::of(m.volume);
+            let end = End { bond: &m.bond, node: &constants, state: &(), volume };
+            self.material.add_bond(&mut sum, &bond(&m.xi), end);
+        }
+        let state = self.material.node_state(&sum, &constants, &of_family, &Record::zero());
+        members.iter().fold(SMatrix::zeros(), |stress, m| {
+            let volume = T::of(m.volume);
+            let end = End { bond: &m.bond, node: &constants, state: &state, volume };
+            let force = self.material.force_state(&bond(&m.xi), end).map(Real::to_f64);
+            stress + force * m.xi.transpose() * m.volume
+        })
+    }
+
     fn update_states(&mut self, visit: Visit) {
         if M::NodeState::LEN > 0 {
             self.family.sweep(
@@ -660,6 +683,10 @@ pub trait Dynamics<T: Real, const D: usize> {
     fn can_break(&self) -> bool;
     /// Acceleration of force density 1 at a site, 1/(ρ Δx²).
     fn inverse_mass(&self, site: usize) -> T;
+    /// True if forces are exactly linear in the displacements ([`Material::LINEAR`]).
+    fn is_linear(&self) -> bool;
+    /// −∂f_i/∂u_i of every site i about the reference configuration, in Pa/Δx².
+    fn diagonal_blocks(&self) -> Field<T, SMatrix<T, D, D>>;
 }
 
 /// Called around the breaking of bonds, to account for what it dissipates.
@@ -675,7 +702,8 @@ impl<B: ?Sized> BreakEvents<B> for () {
     fn after(&mut self, _: &B, _: Tally) {}
 }
 
-fn axpy<T: Real>(y: &mut [T], a: T, x: &[T]) {
+/// y += a x.
+pub(crate) fn axpy<T: Real>(y: &mut [T], a: T, x: &[T]) {
     y.par_chunks_mut(CHUNK).zip(x.par_chunks(CHUNK)).for_each(|(y, x)| {
         for (y, x) in y.iter_mut().zip(x) {
             *y += a * *x;
@@ -808,5 +836,13 @@ where
             InverseMass::Uniform(w) => *w,
             InverseMass::PerSite(w) => w[site],
         }
+    }
+    fn is_linear(&self) -> bool {
+        M::LINEAR
+    }
+    fn diagonal_blocks(&self) -> Field<T, SMatrix<T, D, D>> {
+        let constants = (&self.node_const, &self.family_const);
+        let bits = self.bits.as_ref();
+        crate::diagonal::blocks(&self.family, &self.material, &self.table, bits, constants)
     }
 }

@@ -215,6 +215,49 @@ pub enum Error {
         /// Speed of the node in m/s.
         speed: f64,
     },
+    /// A static problem whose operator is not positive definite.
+    #[error(
+        "the static operator is not positive definite: the direction of iteration {iteration}, \
+         largest at node {node}, has the curvature pᵀKp/pᵀp = {curvature:e} Pa/m². Either the \
+         material amplifies short waves (`Symbol::of(…).stability()` names the wave; the positive \
+         split has none), or it has zero-energy modes (add a control), or a part hangs by too few \
+         bonds"
+    )]
+    IndefiniteOperator {
+        /// pᵀKp/pᵀp in Pa/m²: zero or negative.
+        curvature: f64,
+        /// The node where p is largest.
+        node: usize,
+        /// Iterations done.
+        iteration: usize,
+    },
+    /// A static problem with a part that can move without deforming.
+    #[error(
+        "the part of {nodes} nodes around node {node} is free for a {motion}: prescribe enough \
+         displacements to hold it"
+    )]
+    FreeRigidMotion {
+        /// A node of the part.
+        node: usize,
+        /// Nodes connected by bonds with it.
+        nodes: usize,
+        /// The free motion.
+        motion: String,
+    },
+    /// The iteration ended before the residual was small enough.
+    #[error(
+        "the static solver stopped at a relative residual of {residual:e} (asked for \
+         {tolerance:e}) after {iterations} iterations: allow more, ask for less accuracy (rounding \
+         limits single precision to about 1e-4), or look for parts that are barely held"
+    )]
+    NotConverged {
+        /// ‖r‖/‖r₀‖.
+        residual: f64,
+        /// The value asked for.
+        tolerance: f64,
+        /// Iterations done.
+        iterations: usize,
+    },
     /// Another error, with the step and time at which it happened.
     #[error("at step {step}, t = {time:e} s: {source}")]
     During {

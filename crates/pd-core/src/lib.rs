@@ -6,8 +6,10 @@
 pub mod body;
 pub mod bond;
 pub mod cloud;
+pub mod convergence;
 pub mod crack;
 pub mod damage;
+mod diagonal;
 pub mod error;
 pub mod family;
 pub mod field;
@@ -26,6 +28,7 @@ pub mod region;
 pub mod run;
 pub mod search;
 pub mod shape;
+pub mod statics;
 pub mod symbol;
 pub mod time_step;
 
@@ -49,5 +52,6 @@ pub use real::Real;
 pub use record::Record;
 pub use run::{Energies, Flow, Margin, Observer, Run, TimeStep, View};
 pub use search::{Rows, neighbours};
+pub use statics::Statics;
 pub use symbol::Symbol;
 pub use time_step::TimeStepEstimates;

@@ -165,6 +165,20 @@ impl Bound {
         }
         Ok(())
     }
+    /// The prescribed components (site, axis).
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a prescribed velocity: a body at rest has none.
+    pub(crate) fn held(&self) -> Result<Vec<(usize, usize)>> {
+        let mut held = Vec::new();
+        for load in &self.supports {
+            let displacement = load.kind == Kind::Displacement;
+            let need = "absent in a static problem: prescribe a displacement";
+            Error::check(displacement, "prescribed velocity [m/s]", load.value.at(0.0), need)?;
+            held.extend(load.sites.iter().map(|s| (s.site, load.axis)));
+        }
+        Ok(held)
+    }
     /// Before the drift from t to t + dt: prescribed components move at the speed that takes them
     /// where they must be at t + dt.
     pub fn hold<T: Real, const D: usize>(&self, body: &mut impl Dynamics<T, D>, t: f64, dt: f64) {

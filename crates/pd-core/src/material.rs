@@ -32,6 +32,9 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
     type NodeState: Record<T>;
     /// True if node constants are those of the intact family: recomputed where a bond broke.
     const FOLLOWS_DAMAGE: bool = false;
+    /// True if forces are exactly linear in the displacements: the [static
+    /// solver](crate::statics) then takes them as they are, else differences of them.
+    const LINEAR: bool = false;
 
     /// Mass density ρ of a node in kg/m³.
     fn density(&self, node: usize) -> f64;
@@ -191,6 +194,7 @@ impl<T: Real, const D: usize, M: Material<T, D>> Material<T, D> for &M {
     type FamilySum = M::FamilySum;
     type NodeState = M::NodeState;
     const FOLLOWS_DAMAGE: bool = M::FOLLOWS_DAMAGE;
+    const LINEAR: bool = M::LINEAR;
     const CAN_FAULT: bool = M::CAN_FAULT;
 
     fn density(&self, node: usize) -> f64 {

@@ -136,6 +136,33 @@ impl<const D: usize, const S: usize> PolynomialMicromoduli<D, S> {
     }
 }
 
+impl<const D: usize, const S: usize> PolynomialMicromoduli<D, S> {
+    /// Stiffness in Pa (Voigt) of a family of bonds (ξ, βV), in any unit of length, whose horizon is
+    /// `horizon` (Scabbia Eq. 42):
+    ///
+    /// C = (1/m) Σ ω|ξ|² k⟨n⟩ v vᵀ βV + (1/m²) S λ Sᵀ, S = Σ ω|ξ|² v sᵀ βV,
+    ///
+    /// with v the products n_i n_j and s those of them that are shears. The double sum of the paper
+    /// is the product S λ Sᵀ.
+    pub fn elasticity_tensor<const V: usize>(
+        &self,
+        family: &[(SVector<f64, D>, f64)],
+        horizon: f64,
+    ) -> SMatrix<f64, V, V> {
+        let (mut m, mut bonds, mut shear) = (0.0, SMatrix::zeros(), SMatrix::<f64, V, S>::zeros());
+        for (xi, volume) in family {
+            let n = xi.normalize();
+            let v: SVector<f64, V> = voigt_direction(&n);
+            let products: SVector<f64, S> = shear_products(&n);
+            let weight = self.influence.weight(xi.norm() / horizon) * xi.norm_squared() * volume;
+            m += weight;
+            bonds += v * v.transpose() * (weight * self.micromodulus(&n));
+            shear += v * products.transpose() * weight;
+        }
+        bonds / m + shear * self.lambda * shear.transpose() / (m * m)
+    }
+}
+
 /// Shear products n_a n_b of a direction: xy in 2D; yz, xz, xy in 3D.
 fn shear_products<const D: usize, const S: usize>(n: &SVector<f64, D>) -> SVector<f64, S> {
     SVector::from_fn(|r, _| if D == 2 { n[0] * n[1] } else { n[(r + 1) % 3] * n[(r + 2) % 3] })
@@ -208,12 +235,17 @@ impl<T: Real, const D: usize, const S: usize> ScalarState<T, D> for PolynomialMi
 /// 𝓜 = Σ ω|ξ|² v vᵀ βV, v = (n_x², …, n_x n_y), L = C − (k₀/m) 𝓜 and
 /// k₀ = κ / λ_max(C⁻¹𝓜/m), the fraction κ of the largest that leaves L positive semi-definite.
 /// T = ω[(k₀/m) e + |ξ| v·𝓜⁻¹ L s] M.
+///
+/// The bonds may carry more along a fibre f ([`with_fibre`](Self::with_fibre)): k₀ g⟨n⟩ in place of
+/// k₀, g = 1 + r (n·f)⁴, and Σ ω|ξ|² g v vᵀ βV in place of 𝓜 in L and k₀.
 #[derive(Clone)]
 pub struct PositiveSplit<const D: usize, const V: usize> {
     stiffness: SMatrix<f64, V, V>,
     /// Inverse of the Cholesky factor of C, in the corner of a 6 × 6 matrix.
     inverse_factor: Matrix6<f64>,
     kappa: f64,
+    /// Unit vector along the fibre, and r.
+    fibre: Option<(SVector<f64, D>, f64)>,
     density: f64,
     influence: Arc<dyn Influence>,
 }
@@ -258,7 +290,25 @@ impl<const D: usize, const V: usize> PositiveSplit<D, V> {
             .cholesky()
             .and_then(|factor| factor.l().try_inverse())
             .unwrap_or_else(Matrix6::identity);
-        Ok(Self { stiffness, inverse_factor, kappa: 0.9, density, influence: Arc::new(influence) })
+        let influence = Arc::new(influence);
+        Ok(Self { stiffness, inverse_factor, kappa: 0.9, fibre: None, density, influence })
+    }
+    /// Bonds along `fibre` carry 1 + r times as much as those across: g = 1 + r (n·f)⁴. The
+    /// stiffness, and that no wave grows, are the same for every r ≥ 0.
+    ///
+    /// # Errors
+    /// A direction of no length, an r that is negative or not finite.
+    pub fn with_fibre(mut self, fibre: [f64; D], r: f64) -> Result<Self> {
+        let fibre = SVector::from(fibre);
+        let length = pd_core::Error::positive("length of the fibre's direction", fibre.norm())?;
+        let ok = r >= 0.0 && r.is_finite();
+        let r = pd_core::Error::check(ok, "share r of bonds along the fibre", r, "at least 0")?;
+        self.fibre = Some((fibre / length, r));
+        Ok(self)
+    }
+    /// g⟨n⟩.
+    fn emphasis(&self, n: &SVector<f64, D>) -> f64 {
+        self.fibre.map_or(1.0, |(fibre, r)| 1.0 + r * n.dot(&fibre).powi(4))
     }
     /// The share κ of the largest k₀ that is put into the bonds (0.9 by default).
     ///
@@ -285,6 +335,7 @@ fn embed<const V: usize>(a: &SMatrix<f64, V, V>, fill: f64) -> Matrix6<f64> {
 /// Constants of a bond of [`PositiveSplit`].
 #[derive(Debug, Clone, Copy)]
 pub struct SplitBond<T, const V: usize> {
+    /// ω g.
     omega: T,
     /// ω|ξ| v.
     strain: SVector<T, V>,
@@ -308,7 +359,7 @@ impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSpli
         let (length, n) = (xi.norm(), xi.normalize());
         let omega = self.influence.weight(length / scale.horizon);
         let strain: SVector<f64, V> = voigt_direction(&n) * (omega * length);
-        SplitBond { omega: T::of(omega), strain: strain.map(T::of) }
+        SplitBond { omega: T::of(omega * self.emphasis(&n)), strain: strain.map(T::of) }
     }
     fn node_const(
         &self,
@@ -316,19 +367,23 @@ impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSpli
     ) -> CoreResult<(T, SMatrix<T, V, V>)> {
         let mut m = 0.0;
         let mut moment = SMatrix::<f64, V, V>::zeros();
+        let mut carried = moment;
         for member in family.members {
-            let v: SVector<f64, V> = voigt_direction(&member.xi.normalize());
-            let weight = member.bond.1.omega.to_f64() * member.xi.norm_squared() * member.volume;
+            let n = member.xi.normalize();
+            let v: SVector<f64, V> = voigt_direction(&n);
+            let omega = self.influence.weight(member.xi.norm() / family.scale.horizon);
+            let weight = omega * member.xi.norm_squared() * member.volume;
             m += weight;
             moment += v * v.transpose() * weight;
+            carried += v * v.transpose() * (weight * self.emphasis(&n));
         }
         weighted_volume(m, family.node, true)?;
         let scaled =
-            self.inverse_factor * embed(&(moment / m), 0.0) * self.inverse_factor.transpose();
+            self.inverse_factor * embed(&(carried / m), 0.0) * self.inverse_factor.transpose();
         let values = scaled.symmetric_eigenvalues();
         let k0 = self.kappa / values.max();
         let inverse = inverse_moment(&moment, m, family.node, family.members.len())?;
-        let rest = self.stiffness - moment * (k0 / m);
+        let rest = self.stiffness - carried * (k0 / m);
         let spread = inverse * rest * inverse;
         Ok((T::of(k0 / m), spread.map(T::of)))
     }

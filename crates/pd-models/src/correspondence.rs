@@ -28,6 +28,8 @@ pub trait Constitutive<T: Real, const D: usize>: Send + Sync {
     }
     /// True if the law needs J = det F > 0.
     const NEEDS_POSITIVE_J: bool = false;
+    /// True if P is linear in H.
+    const LINEAR: bool = false;
 }
 
 /// A law with an energy density, so that energies can be reported.
@@ -75,6 +77,7 @@ fn cofactor<T: Real, const D: usize>(a: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {
 pub struct LinearElastic<const D: usize>(pub Stiffness<D>);
 
 impl<T: Real, const D: usize> Constitutive<T, D> for LinearElastic<D> {
+    const LINEAR: bool = true;
     #[inline(always)]
     fn stress(&self, h: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {
         self.0.contract(&small_strain(h))
@@ -327,6 +330,7 @@ where
     /// P B − C H, which makes T = ω ((P B − C H) ξ + C η), and H.
     type NodeState = (SMatrix<T, D, D>, SMatrix<T, D, D>);
     const FOLLOWS_DAMAGE: bool = true;
+    const LINEAR: bool = L::LINEAR;
     const CAN_FAULT: bool = L::NEEDS_POSITIVE_J;
 
     fn density(&self, _: usize) -> f64 {

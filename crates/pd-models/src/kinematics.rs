@@ -23,6 +23,8 @@ impl<T: Real> BondLength<T> {
 
 /// How extension e and direction M follow from a bond.
 pub trait Kinematics: Copy + Default + Send + Sync + 'static {
+    /// True if e is linear in η and M does not depend on it.
+    const LINEAR: bool = false;
     /// Extension e and direction M of the force.
     fn extension_and_direction<T: Real, const D: usize>(
         bond: &Bond<T, D>,
@@ -49,6 +51,7 @@ impl Kinematics for Finite {
 pub struct Linearised;
 
 impl Kinematics for Linearised {
+    const LINEAR: bool = true;
     #[inline(always)]
     fn extension_and_direction<T: Real, const D: usize>(
         bond: &Bond<T, D>,

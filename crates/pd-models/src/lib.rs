@@ -9,8 +9,10 @@ pub mod error;
 pub mod kinematics;
 pub mod linear_solid;
 pub mod ordinary;
+pub mod probe;
 pub mod regions;
 pub mod strained;
+pub mod surface;
 
 pub use anisotropic::{PolynomialMicromoduli, PositiveSplit};
 pub use bond_associated::BondAssociated;
@@ -20,11 +22,14 @@ pub use correspondence::{
     SaintVenantKirchhoff, SillingControl, WanControl, ZeroEnergyControl,
 };
 pub use elasticity::{
-    Isotropic, Lamina, Orthotropic, PlaneMode, Stiffness, TransverselyIsotropic, Wave,
+    Intensity, Isotropic, Lamina, Orthotropic, PlaneMode, Stiffness, Stroh, TransverselyIsotropic,
+    Wave,
 };
 pub use error::{Error, Result};
 pub use kinematics::{Finite, Kinematics, Linearised};
 pub use linear_solid::{LinearSolid, MadenciOterkus, MadenciOterkusPrinted};
 pub use ordinary::{Ordinary, ScalarState, SplitState};
+pub use probe::elasticity_tensor;
 pub use regions::{Mixed, Regions};
 pub use strained::Strained;
+pub use surface::OnFamily;

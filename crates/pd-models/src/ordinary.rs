@@ -111,6 +111,7 @@ where
     type FamilyConst = S::FamilyConst;
     type FamilySum = S::FamilySum;
     type NodeState = S::NodeState;
+    const LINEAR: bool = K::LINEAR;
 
     fn density(&self, node: usize) -> f64 {
         self.model.density(node)

@@ -55,6 +55,7 @@ where
     type FamilySum = M::FamilySum;
     type NodeState = M::NodeState;
     const FOLLOWS_DAMAGE: bool = M::FOLLOWS_DAMAGE;
+    const LINEAR: bool = M::LINEAR;
     const CAN_FAULT: bool = M::CAN_FAULT;
 
     fn density(&self, node: usize) -> f64 {

@@ -1,2 +1,4 @@
 //! Problems with known solutions, for tests, benches and examples. Not published.
+pub mod fem;
+pub mod infinite_plate;
 pub mod oracle;

@@ -6,10 +6,12 @@ pub mod catalogue;
 mod engineering;
 mod moduli;
 mod stiffness;
+pub mod stroh;
 mod transform;
 pub mod voigt;
 mod waves;
 
 pub use moduli::{Isotropic, Lamina, Orthotropic, PlaneMode, TransverselyIsotropic};
 pub use stiffness::Stiffness;
+pub use stroh::{Intensity, Stroh};
 pub use waves::Wave;

@@ -1,0 +1,122 @@
+//! Stroh formalism of plane anisotropic elasticity, for cracks: roots p, matrices A and B, and the
+//! real matrix L⁻¹ = Re(i A B⁻¹) that joins crack opening and stress intensity.
+//!
+//! A displacement u = a f(x + p y) needs |Q + p(R + Rᵀ) + p² T| = 0 with Q_ik = C_i1k1,
+//! R_ik = C_i1k2, T_ik = C_i2k2; its stress functions are b f with b = (Rᵀ + p T) a. In the plane
+//! the condition is a quartic with the compliances s = C⁻¹ (Voigt),
+//!
+//! s11 p⁴ − 2 s16 p³ + (2 s12 + s66) p² − 2 s26 p + s22 = 0,
+//!
+//! of whose roots those with Im p > 0 count. For an isotropic material they coincide (p = i) and A
+//! and B are singular, but A B⁻¹ depends on their sum and product alone:
+//!
+//! L⁻¹ = s11 Im [ p₁+p₂, p₁p₂; p₁p₂, −(p₁+p₂)·conj(p₁p₂) ],
+//!
+//! so that one form serves every material.
+
+use super::Stiffness;
+use crate::Result;
+use nalgebra::{Complex, Matrix2, Matrix3, Matrix4, Rotation2, Vector2};
+use pd_core::Error;
+use std::f64::consts::PI;
+
+/// Mode I and mode II stress intensity factors in Pa√m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Intensity {
+    /// K_I: opening.
+    pub i: f64,
+    /// K_II: sliding.
+    pub ii: f64,
+}
+
+/// The Stroh solution of a plane material with a crack, in crack axes: x₁ along the crack, towards
+/// the tip, x₂ from the lower to the upper face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroh {
+    /// Compliance in crack axes, Voigt, 1/Pa.
+    s: Matrix3<f64>,
+    roots: [Complex<f64>; 2],
+    opening: Matrix2<f64>,
+    /// From the axes of the problem to those of the crack.
+    turn: Rotation2<f64>,
+}
+
+impl Stroh {
+    /// For a crack whose tip points at `angle` (radians, counter-clockwise from x): 0 for the right
+    /// end of a crack along x, π for its left end. The stiffness, in plane stress or plane strain,
+    /// is in the axes of the problem.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for an angle that is not finite.
+    pub fn new(stiffness: &Stiffness<2>, angle: f64) -> Result<Self> {
+        Error::check(angle.is_finite(), "direction of a crack tip", angle, "finite")?;
+        let own = stiffness.rotated(-angle).voigt();
+        // Positive definite by construction, so the inverse exists.
+        let s = own.try_inverse().unwrap_or_else(Matrix3::zeros);
+        let roots = upper_roots(&s);
+        let (sum, product) = (roots[0] + roots[1], roots[0] * roots[1]);
+        let opening =
+            Matrix2::new(sum.im, product.im, product.im, -(sum * product.conj()).im) * s[(0, 0)];
+        Ok(Self { s, roots, opening, turn: Rotation2::new(-angle) })
+    }
+
+    /// The roots p with Im p > 0.
+    pub fn roots(&self) -> [Complex<f64>; 2] {
+        self.roots
+    }
+    /// Columns a of A, with B of [`b`](Self::b): (s11 p² − s16 p + s12, s12 p − s26 + s22/p).
+    pub fn a(&self) -> Matrix2<Complex<f64>> {
+        let s = |i: usize, j: usize| Complex::from(self.s[(i, j)]);
+        let column = |p: Complex<f64>| {
+            [s(0, 0) * p * p - s(0, 2) * p + s(0, 1), s(0, 1) * p - s(1, 2) + s(1, 1) / p]
+        };
+        Matrix2::from_columns(&self.roots.map(|p| Vector2::from(column(p))))
+    }
+    /// Columns b of B: (−p, 1).
+    pub fn b(&self) -> Matrix2<Complex<f64>> {
+        Matrix2::from_columns(&self.roots.map(|p| Vector2::new(-p, Complex::from(1.0))))
+    }
+    /// L⁻¹ = Re(i A B⁻¹) in 1/Pa, symmetric positive definite; 2/E' times the identity for an
+    /// isotropic material.
+    pub fn opening_compliance(&self) -> Matrix2<f64> {
+        self.opening
+    }
+
+    /// Stress intensity from the opening Δu = u(upper face) − u(lower face), upper in crack axes (the
+    /// face to the left of who walks towards the tip), in metres and in the
+    /// axes of the problem, at the distance r in metres behind the tip (Hattori Eq. 33; errata
+    /// 000-11): (K_II, K_I) = √(π/8r) L Δu.
+    pub fn intensity(&self, r: f64, opening: &Vector2<f64>) -> Intensity {
+        let l = self.opening.try_inverse().unwrap_or_else(Matrix2::zeros);
+        let k = l * (self.turn * opening) * (PI / (8.0 * r)).sqrt();
+        Intensity { i: k.y, ii: k.x }
+    }
+    /// The opening at the distance r behind the tip, in metres and in the axes of the problem: the
+    /// inverse of [`intensity`](Self::intensity).
+    pub fn opening(&self, r: f64, k: Intensity) -> Vector2<f64> {
+        self.turn.inverse() * (self.opening * Vector2::new(k.ii, k.i)) * (8.0 * r / PI).sqrt()
+    }
+    /// Energy release rate G = ½ kᵀ L⁻¹ k in J/m², k = (K_II, K_I).
+    pub fn energy_release_rate(&self, k: Intensity) -> f64 {
+        let k = Vector2::new(k.ii, k.i);
+        0.5 * k.dot(&(self.opening * k))
+    }
+}
+
+/// The roots of the quartic with Im p > 0, eigenvalues of its companion matrix. Where they
+/// coincide each is known to √ε only, their sum and product to ε.
+fn upper_roots(s: &Matrix3<f64>) -> [Complex<f64>; 2] {
+    let c = [s[(1, 1)], -2.0 * s[(1, 2)], 2.0 * s[(0, 1)] + s[(2, 2)], -2.0 * s[(0, 2)]];
+    // p = scale q brings the product of all roots to 1.
+    let scale = (s[(1, 1)] / s[(0, 0)]).powf(0.25);
+    let companion = Matrix4::from_fn(|i, j| {
+        if j == 3 {
+            -c[i] / (s[(0, 0)] * scale.powi(4 - i as i32))
+        } else {
+            f64::from(u8::from(i == j + 1))
+        }
+    });
+    let mut roots: Vec<Complex<f64>> = companion.complex_eigenvalues().iter().copied().collect();
+    roots.sort_by(|a, b| b.im.total_cmp(&a.im));
+    [roots[0] * scale, roots[1] * scale]
+}

@@ -1,0 +1,121 @@
+//! A pulled bar of a monoclinic solid in 3D (Scabbia §6.5), against finite elements.
+//!
+//! ```text
+//! cargo run --release --example scabbia_solid [-- --short | --full]
+//! ```
+//! PPS with carbon fibres turned by 30° about z, 0.6 × 0.15 × 0.12 m; clamped at x = 0, u_x = 1 mm
+//! at x = 0.6 m with u_y and u_z free, both in fictitious layers as thick as the horizon. The
+//! paper: Δx = 10 mm, m = 3, difference by Eq. 52 below 3 %.
+//!
+//! `--short` takes Δx = 15 mm, `--full` adds Δx = 5 mm at m = 3 (δ-convergence). Pictures go to
+//! `out/scabbia_solid/`.
+mod common;
+
+use common::{Effort, Outcome, at_most, compared, done, head, reported, watch};
+use pd_testkit::fem::Displacements;
+use peridynamics::io::{ColourMap, FieldMap};
+use peridynamics::models::elasticity::catalogue::pps_carbon;
+use peridynamics::models::{OnFamily, ScalarState};
+use peridynamics::prelude::*;
+use std::time::Instant;
+
+const SIZE: [f64; 3] = [0.6, 0.15, 0.12];
+const PULL: f64 = 1e-3;
+const M: f64 = 3.0;
+
+struct Solution {
+    grid: Grid<3>,
+    u: Vec<SVector<f64, 3>>,
+    force: f64,
+}
+
+fn solve<S: ScalarState<f64, 3>>(name: &str, model: S, dx: f64) -> Outcome<Solution> {
+    let layer = M * dx;
+    let [x, y, z] = SIZE;
+    let grid = Grid::new(&Cuboid::new([-layer, 0.0, 0.0], [x + layer, y, z])?, dx)?;
+    let family = Lattice::<f64, 3>::new(&grid, Horizon::Cells(M), Quadrature::Exact)?;
+    let mut body = Body::new(family, Ordinary::linearised(model), NoDamage)?;
+    let (left, right) = (grid.select(|p| p[0] < 0.0), grid.select(|p| p[0] > x));
+    let loads = Loads::new().clamp::<3>(&left).displacement(&right, 0, PULL);
+    let start = Instant::now();
+    // The paper asks for 1e-4 only; here the solver must not show in the differences.
+    let solved =
+        Statics::new().with_tolerance(1e-6)?.solve_watched(&mut body, loads, watch(name))?;
+    done();
+    let (nodes, seconds) = (body.nodes(), start.elapsed().as_secs_f64());
+    println!("{name}: {nodes} nodes, {} iterations, {seconds:.1} s", solved.iterations);
+    Ok(Solution {
+        force: peridynamics::core::run::reaction(&body, &right)[0],
+        u: (0..body.nodes()).map(|i| body.displacement(i)).collect(),
+        grid,
+    })
+}
+
+fn main() -> Outcome {
+    let effort = Effort::given();
+    let dx = effort.pick(15e-3, 10e-3, 10e-3);
+    let fem = Displacements::read("scabbia65", ["ux_free", "uy_free", "uz_free"]);
+    let stiffness = pps_carbon()?.rotated_about_z(30_f64.to_radians());
+    let polynomial = PolynomialMicromoduli::solid(&stiffness, 1e3, InfluenceFunction::Gaussian)?;
+    let split = PositiveSplit::solid(&stiffness, 1e3, InfluenceFunction::Gaussian)?;
+    let corrected = OnFamily::new(polynomial.clone(), &stiffness);
+    println!("Δx = {} mm, m = {M}", dx * 1e3);
+    let mut runs = vec![
+        ("paper", dx, solve("paper", polynomial.clone(), dx)?),
+        ("polynomial, corrected", dx, solve("polynomial, corrected", corrected, dx)?),
+        ("positive split", dx, solve("positive split", split.clone(), dx)?),
+    ];
+    if effort == Effort::Full {
+        runs.push(("polynomial, half spacing", 5e-3, solve("half spacing", polynomial, 5e-3)?));
+        runs.push(("positive split, half spacing", 5e-3, solve("split, half", split, 5e-3)?));
+    }
+    head();
+    for (name, dx, solution) in &runs {
+        let differences = fem.differences(&solution.grid, |i| solution.u[i]);
+        let worst = differences.iter().copied().fold(0.0, f64::max);
+        let limit = if effort == Effort::Short { 0.1 } else { 0.03 };
+        at_most(&format!("{name}: difference (Eq. 52)"), limit, worst);
+        let slice = |low: f64, high: f64| {
+            let inside = fem.points.iter().zip(&differences);
+            let inside = inside.filter(|(x, _)| (low..high).contains(&x[0]));
+            inside.map(|(_, d)| *d).fold(0.0, f64::max)
+        };
+        reported("  in the third at the clamp", slice(0.0, 0.2));
+        reported("  in the middle third", slice(0.2, 0.4));
+        reported("  in the third that is pulled", slice(0.4, 0.6));
+        reported("  mean", differences.iter().sum::<f64>() / differences.len() as f64);
+        compared("  force [N]", 572.65e3, solution.force);
+        let end: Vec<usize> = (0..solution.grid.len())
+            .filter(|&i| (0.6 - dx..0.6).contains(&solution.grid.position(i)[0]))
+            .collect();
+        let sideways = end.iter().map(|&i| solution.u[i].y).sum::<f64>() / end.len() as f64;
+        compared("  mean u_y of the pulled end [m]", -0.63364e-3, sideways);
+
+        let file = name.replace([' ', ','], "_");
+        let front: Vec<usize> =
+            (0..fem.points.len()).filter(|&i| fem.points[i][2] < 0.01).collect();
+        let places: Vec<SVector<f64, 2>> = front.iter().map(|&i| fem.points[i].xy()).collect();
+        let values: Vec<f64> = front.iter().map(|&i| differences[i]).collect();
+        FieldMap::new(&places, 15e-3, &values)
+            .title(&format!("{name}: difference (Eq. 52), face z = 0"))
+            .range(0.0, limit)
+            .colours(ColourMap::Damage)
+            .write(format!("out/scabbia_solid/{file}_difference.png"))?;
+        let face: Vec<usize> = (0..solution.grid.len())
+            .filter(|&i| {
+                let x = solution.grid.position(i);
+                x[2] < *dx && (0.0..0.6).contains(&x[0])
+            })
+            .collect();
+        let places: Vec<SVector<f64, 2>> = face
+            .iter()
+            .map(|&i| (solution.grid.position(i) + 100.0 * solution.u[i]).xy())
+            .collect();
+        let size: Vec<f64> = face.iter().map(|&i| solution.u[i].norm()).collect();
+        FieldMap::new(&places, 1.25 * dx, &size)
+            .title(&format!("{name}: |u| [m], face z = 0 (u x 100)"))
+            .write(format!("out/scabbia_solid/{file}.png"))?;
+    }
+    println!("pictures are in out/scabbia_solid");
+    Ok(())
+}
