@@ -60,6 +60,7 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for StrainKern
     type Own = M::FamilyConst;
     type Sum = M::FamilySum;
     type Out = M::NodeState;
+    const STRETCH: bool = M::STRETCH;
 
     #[inline(always)]
     fn add(
@@ -107,6 +108,7 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for ForceKerne
     type Own = ();
     type Sum = SVector<T, D>;
     type Out = SVector<T, D>;
+    const STRETCH: bool = M::STRETCH;
 
     #[inline(always)]
     fn add(
@@ -116,7 +118,7 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for ForceKerne
         pair: Pair<'_, T, M::BondConst>,
         nodes: [&Self::Node; 2],
     ) {
-        *sum += self.0.pair_force(bond, ends::<T, D, M>(pair, nodes));
+        self.0.add_pair_force(sum, bond, ends::<T, D, M>(pair, nodes));
     }
     #[inline(always)]
     fn close(
@@ -139,6 +141,7 @@ impl<T: Real, const D: usize, M: StrainEnergy<T, D>> BondKernel<T, D> for Energy
     type Own = ();
     type Sum = T;
     type Out = T;
+    const STRETCH: bool = M::STRETCH;
 
     #[inline(always)]
     fn add(
@@ -406,8 +409,10 @@ where
         }
     }
 
-    fn update_states(&mut self, visit: Visit) {
+    /// Returns the largest t of the bonds where the material looks at it.
+    fn update_states(&mut self, visit: Visit) -> Option<T> {
         if M::NodeState::LEN > 0 {
+            let t =
             self.family.sweep(
                 &StrainKernel(&self.material),
                 &self.table,
@@ -417,18 +422,21 @@ where
                 (&self.node_const, &self.family_const),
                 &mut self.node_state,
             );
+            return M::STRETCH.then_some(t);
         }
+        None
     }
-    fn update_forces(&mut self) {
-        self.family.sweep(
+    fn update_forces(&mut self, visit: Visit) -> Option<T> {
+        let t = self.family.sweep(
             &ForceKernel(&self.material),
             &self.table,
             self.bits.as_ref(),
-            Visit::All,
+            visit,
             &self.u,
             ((&self.node_const, &self.node_state), ()),
             &mut self.force,
         );
+        M::STRETCH.then_some(t)
     }
     fn find_fault(&self) -> Result<()> {
         if M::CAN_FAULT {
@@ -440,6 +448,36 @@ where
         }
         Ok(())
     }
+    /// True if the force of a bond depends on nothing but the bond: then forces come before the
+    /// test, which they may spare, and again at the nodes that lost a bond.
+    const FORCES_FIRST: bool =
+        <M::NodeState as Record<T>>::LEN == 0 && M::STRETCH && !M::FOLLOWS_DAMAGE;
+
+    /// Tests all bonds, breaks those that fail and follows the damage.
+    fn break_bonds(&mut self, events: &mut dyn BreakEvents<Self>) -> Result<Tally> {
+        events.before(self);
+        let mut tally = Tally::default();
+        if let Some(bits) = &mut self.bits {
+            tally = self.policy.check(Check {
+                family: &self.family,
+                material: &self.material,
+                table: &self.table,
+                bits,
+                u: &self.u,
+                node_const: &self.node_const,
+                node_state: &self.node_state,
+                constants: &self.criterion_const,
+                values: &mut self.criterion_value,
+            });
+        }
+        self.worst = self.worst.max(tally.worst);
+        if tally.broken > 0 {
+            tally.broken += self.follow_damage()?;
+            self.broken += tally.broken;
+            events.after(self, tally);
+        }
+        Ok(tally)
+    }
     /// Node constants and states of the nodes that lost a bond. Nodes that are detached by it lose
     /// their other bonds too; returns how many.
     fn follow_damage(&mut self) -> Result<usize> {
@@ -448,6 +486,9 @@ where
         self.bits = Some(bits);
         let lost = lost?;
         self.update_states(Visit::Marked);
+        if Self::FORCES_FIRST {
+            self.update_forces(Visit::Marked);
+        }
         if let Some(bits) = &mut self.bits {
             F::clear_marks(bits);
         }
@@ -758,7 +799,7 @@ where
     fn evaluate(&mut self) -> Result<()> {
         self.update_states(Visit::All);
         self.find_fault()?;
-        self.update_forces();
+        self.update_forces(Visit::All);
         Ok(())
     }
     fn evaluate_and_break(
@@ -766,32 +807,26 @@ where
         step: usize,
         events: &mut dyn BreakEvents<Self>,
     ) -> Result<Tally> {
-        self.update_states(Visit::All);
+        let states = self.update_states(Visit::All);
         self.find_fault()?;
+        let forces = if Self::FORCES_FIRST { self.update_forces(Visit::All) } else { None };
         let mut tally = Tally::default();
         if P::ACTIVE && step.is_multiple_of(self.policy.every()) {
-            events.before(self);
-            if let Some(bits) = &mut self.bits {
-                tally = self.policy.check(Check {
-                    family: &self.family,
-                    material: &self.material,
-                    table: &self.table,
-                    bits,
-                    u: &self.u,
-                    node_const: &self.node_const,
-                    node_state: &self.node_state,
-                    constants: &self.criterion_const,
-                    values: &mut self.criterion_value,
-                });
-            }
-            self.worst = self.worst.max(tally.worst);
-            if tally.broken > 0 {
-                tally.broken += self.follow_damage()?;
-                self.broken += tally.broken;
-                events.after(self, tally);
+            // The largest index, if the passes so far tell it.
+            let known = match (states.or(forces), self.policy.per_square_strain()) {
+                (Some(t), Some(per_t)) => Some(t * per_t),
+                _ => None,
+            };
+            if let Some(worst) = known.filter(|worst| *worst <= T::one()) {
+                self.worst = self.worst.max(worst.to_f64());
+                tally.worst = worst.to_f64();
+            } else {
+                tally = self.break_bonds(events)?;
             }
         }
-        self.update_forces();
+        if !Self::FORCES_FIRST {
+            self.update_forces(Visit::All);
+        }
         Ok(tally)
     }
     fn can_break(&self) -> bool {

@@ -5,15 +5,60 @@ use nalgebra::SVector;
 
 /// One bond of a body: the reference vector ξ = x' − x and the relative displacement
 /// η = u' − u, both in units of the body's length unit ([`Scale::unit`], Δx).
+///
+/// Its stretch λ = |Y|/|ξ| enters the forces by t = λ² − 1 = η·(η + 2ξ)/|ξ|² and by functions of
+/// √(1+t), which [`stretch`](Self::stretch) gives without a root or a division while |t| is small.
 #[derive(Debug, Clone, Copy)]
 pub struct Bond<T, const D: usize> {
     /// Reference bond vector ξ.
     pub xi: SVector<T, D>,
     /// Relative displacement η.
     pub eta: SVector<T, D>,
+    /// 1/|ξ|².
+    inverse_square: T,
+    arithmetic: Arithmetic,
+}
+
+/// How the functions of a bond are computed. Constant in every kernel, so it costs no branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Arithmetic {
+    /// |t| ≤ [`Bond::SMALL`] is known.
+    pub small: bool,
+    /// The processor multiplies and adds in one instruction.
+    pub fused: bool,
+}
+
+/// Functions of the stretch λ of a bond.
+#[derive(Debug, Clone, Copy)]
+pub struct Stretch<T> {
+    /// 1 − 1/λ.
+    pub g: T,
+    /// λ − 1.
+    pub strain: T,
+    /// 1/λ.
+    pub inverse: T,
 }
 
 impl<T: Real, const D: usize> Bond<T, D> {
+    /// Up to this |t| (a stretch of about 1.5 %) the functions of a bond are polynomials.
+    pub const SMALL: f64 = 1.0 / 32.0;
+
+    /// The bond ξ with the relative displacement η.
+    #[inline(always)]
+    pub fn new(xi: SVector<T, D>, eta: SVector<T, D>) -> Self {
+        let arithmetic = Arithmetic { small: false, fused: false };
+        Self { xi, eta, inverse_square: xi.dot(&xi).recip(), arithmetic }
+    }
+    /// A bond of a kernel, which knows 1/|ξ|² and what its processor can do.
+    #[inline(always)]
+    pub(crate) fn of_kernel(
+        xi: SVector<T, D>,
+        eta: SVector<T, D>,
+        inverse_square: T,
+        arithmetic: Arithmetic,
+    ) -> Self {
+        Self { xi, eta, inverse_square, arithmetic }
+    }
     /// Deformed bond Y = ξ + η.
     #[inline(always)]
     pub fn deformed(&self) -> SVector<T, D> {
@@ -22,21 +67,88 @@ impl<T: Real, const D: usize> Bond<T, D> {
     /// The same bond seen from its other end.
     #[inline(always)]
     pub fn reversed(&self) -> Self {
-        Self { xi: -self.xi, eta: -self.eta }
+        Self { xi: -self.xi, eta: -self.eta, ..*self }
     }
-    /// Extension e = |Y| − |ξ| without cancellation, (ξ + Y)·η / (|Y| + |ξ|), and direction
-    /// M = Y/|Y|; `length` is |ξ|.
+    /// 1/|ξ|².
+    #[inline(always)]
+    pub fn inverse_square(&self) -> T {
+        self.inverse_square
+    }
+    /// a · b + c: rounded once in the kernels of processors that can (x86-64 with AVX2 and FMA,
+    /// Arm), so all of those give the same bits; rounded twice elsewhere.
+    #[inline(always)]
+    pub fn fma(&self, a: T, b: T, c: T) -> T {
+        if self.arithmetic.fused { T::fused(a, b, c) } else { a * b + c }
+    }
+    /// a·b of two vectors.
+    #[inline(always)]
+    pub fn dot(&self, a: &SVector<T, D>, b: &SVector<T, D>) -> T {
+        let mut sum = a[0] * b[0];
+        for d in 1..D {
+            sum = self.fma(a[d], b[d], sum);
+        }
+        sum
+    }
+    /// sum + a v.
+    #[inline(always)]
+    pub fn add_scaled(&self, sum: &mut SVector<T, D>, a: T, v: &SVector<T, D>) {
+        for d in 0..D {
+            sum[d] = self.fma(a, v[d], sum[d]);
+        }
+    }
+    /// t = |Y|²/|ξ|² − 1 without cancellation, η·(η + 2ξ)/|ξ|².
+    #[inline(always)]
+    pub fn square_strain(&self) -> T {
+        self.dot(&self.eta, &(self.eta + (self.xi + self.xi))) * self.inverse_square
+    }
+    /// 1 − 1/λ, λ − 1 and 1/λ, to less than two units in the last place of the first two.
+    ///
+    /// For small |t|, g = 1 − (1+t)^(−½) = t p(t) with the polynomial [`Real::STRETCH`] and
+    /// λ − 1 = t − g(1+t); else g = t/(λ(1+λ)) and λ − 1 = t/(1+λ) with λ = |Y|/|ξ|.
+    #[inline(always)]
+    pub fn stretch(&self) -> Stretch<T> {
+        let t = self.square_strain();
+        let last = T::STRETCH.len() - 1;
+        let mut p = T::STRETCH[last];
+        for k in (0..last).rev() {
+            p = self.fma(p, t, T::STRETCH[k]);
+        }
+        let g = t * p;
+        let near = Stretch {
+            g,
+            strain: self.fma(-g, T::one() + t, t),
+            inverse: T::one() - g,
+        };
+        if self.arithmetic.small {
+            return near;
+        }
+        let y = self.deformed();
+        let lambda = (self.dot(&y, &y) * self.inverse_square).sqrt();
+        let shared = (lambda * (T::one() + lambda)).recip();
+        let far = Stretch {
+            g: t * shared,
+            strain: t * shared * lambda,
+            inverse: (T::one() + lambda) * shared,
+        };
+        // Blends, not branches: both sides are known. NaN takes the exact side.
+        let small = t.abs() <= T::of(Self::SMALL);
+        let blend = |near: T, far: T| if small { near } else { far };
+        Stretch {
+            g: blend(near.g, far.g),
+            strain: blend(near.strain, far.strain),
+            inverse: blend(near.inverse, far.inverse),
+        }
+    }
+    /// Extension e = |Y| − |ξ| = |ξ|(λ − 1) and direction M = Y/|Y|; `length` is |ξ|.
     #[inline(always)]
     pub fn extension_and_direction(&self, length: T) -> (T, SVector<T, D>) {
-        let y = self.deformed();
-        let deformed_length = y.dot(&y).sqrt();
-        let extension = (self.xi + y).dot(&self.eta) / (deformed_length + length);
-        (extension, y * deformed_length.recip())
+        let Stretch { strain, inverse, .. } = self.stretch();
+        (length * strain, self.deformed() * (inverse * (length * self.inverse_square)))
     }
     /// Extension e = |Y| − |ξ|; `length` is |ξ|.
     #[inline(always)]
     pub fn extension(&self, length: T) -> T {
-        self.extension_and_direction(length).0
+        length * self.stretch().strain
     }
 }
 

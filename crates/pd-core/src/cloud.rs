@@ -4,7 +4,7 @@
 //! (Zhao, dual horizon): f_i = Σ_{H_i} T_i V_j − Σ_{H'_i} T_j V_j. β V is 0 where a neighbour is
 //! in one of the two only.
 
-use crate::bond::{Bond, Member, Scale};
+use crate::bond::{Arithmetic, Bond, Member, Scale};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
 use crate::field::{Field, Inputs};
 use crate::points::Points;
@@ -12,6 +12,8 @@ use crate::quadrature::Quadrature;
 use crate::record::Record;
 use crate::search::neighbours;
 use crate::{Error, Real, Result};
+use multiversion::multiversion;
+use multiversion::target::target_cfg_f;
 use nalgebra::SVector;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -27,6 +29,8 @@ const SNAP: f64 = 8.0 * f64::EPSILON;
 #[derive(Debug, Clone, Copy)]
 struct Entry<T, const D: usize> {
     xi: SVector<T, D>,
+    /// 1/|ξ|².
+    inverse_square: T,
     /// β_ij V_j and β_ji V_j: what weighs T_i and T_j in the force density of node i.
     volumes: [T; 2],
     neighbour: u32,
@@ -134,8 +138,9 @@ impl<T: Real, const D: usize> Cloud<T, D> {
                     let volume = cloud.unit_volume(j);
                     let volumes = [beta(i, j, &xi) * volume, beta(j, i, &-xi) * volume];
                     if volumes[0] > 0.0 || volumes[1] > 0.0 {
+                        let inverse_square = T::of(1.0 / xi.norm_squared());
                         let (xi, volumes) = (xi.map(T::of), volumes.map(T::of));
-                        row.push(Entry { xi, volumes, neighbour: j as u32 });
+                        row.push(Entry { xi, inverse_square, volumes, neighbour: j as u32 });
                     }
                 }
                 row
@@ -195,24 +200,25 @@ where
     own: J,
 }
 
-fn sweep_range<T, const D: usize, Kn, I, J>(
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+    "x86_64+avx2+fma"
+))]
+fn sweep_chunk<T, const D: usize, Kn, I, J>(
     job: &Job<'_, T, D, Kn, I, J>,
     nodes: Range<usize>,
     mut out: <Kn::Out as Record<T>>::PlanesMut<'_>,
-) where
+) -> T
+where
     T: Real,
     Kn: BondKernel<T, D>,
     I: Inputs<T, Value = Kn::Node>,
     J: Inputs<T, Value = Kn::Own>,
 {
-    if nodes.len() > CHUNK {
-        let mid = nodes.len() / 2;
-        let (low, high) = <Kn::Out as Record<T>>::split(out, mid);
-        let (a, b) = (nodes.start..nodes.start + mid, nodes.start + mid..nodes.end);
-        rayon::join(|| sweep_range(job, a, low), || sweep_range(job, b, high));
-        return;
-    }
+    let fused = cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma");
+    let arithmetic = Arithmetic { small: false, fused };
     let first = nodes.start;
+    let mut largest = T::zero();
     for node in nodes {
         if job.marked && job.bits.is_some_and(|b| b.marks[node].load(Relaxed) == 0) {
             continue;
@@ -226,13 +232,40 @@ fn sweep_range<T, const D: usize, Kn, I, J>(
                 continue;
             }
             let j = entry.neighbour as usize;
-            let bond = Bond { xi: entry.xi, eta: job.u.get(j) - u };
+            let bond =
+                Bond::of_kernel(entry.xi, job.u.get(j) - u, entry.inverse_square, arithmetic);
             let pair = Pair { constants: job.table.ends(begin + at), volumes: entry.volumes };
             job.kernel.add(&mut sum, &bond, pair, [&own, &job.input.load(j)]);
+            if Kn::STRETCH {
+                let t = bond.square_strain();
+                largest = if t > largest { t } else { largest };
+            }
         }
         let previous = <Kn::Out as Record<T>>::read(&out, node - first);
         job.kernel.close(&sum, &own, &job.own.load(node), previous).write(&mut out, node - first);
     }
+    largest
+}
+
+fn sweep_range<T, const D: usize, Kn, I, J>(
+    job: &Job<'_, T, D, Kn, I, J>,
+    nodes: Range<usize>,
+    out: <Kn::Out as Record<T>>::PlanesMut<'_>,
+) -> T
+where
+    T: Real,
+    Kn: BondKernel<T, D>,
+    I: Inputs<T, Value = Kn::Node>,
+    J: Inputs<T, Value = Kn::Own>,
+{
+    if nodes.len() <= CHUNK {
+        return sweep_chunk(job, nodes, out);
+    }
+    let mid = nodes.len() / 2;
+    let (low, high) = <Kn::Out as Record<T>>::split(out, mid);
+    let (a, b) = (nodes.start..nodes.start + mid, nodes.start + mid..nodes.end);
+    let (a, b) = rayon::join(|| sweep_range(job, a, low), || sweep_range(job, b, high));
+    if b > a { b } else { a }
 }
 
 impl<K> RowTable<K> {
@@ -392,14 +425,15 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         u: &Field<T, SVector<T, D>>,
         (input, own): (I, J),
         out: &mut Field<T, Kn::Out>,
-    ) where
+    ) -> T
+    where
         Kn: BondKernel<T, D>,
         I: Inputs<T, Value = Kn::Node>,
         J: Inputs<T, Value = Kn::Own>,
     {
         let marked = visit == Visit::Marked;
         let job = Job { cloud: self, kernel, table, bits, marked, u, input, own };
-        sweep_range(&job, 0..self.nodes(), out.planes_mut());
+        sweep_range(&job, 0..self.nodes(), out.planes_mut())
     }
 
     fn break_bonds<B, I>(
@@ -416,6 +450,7 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     {
         // Both rows of a bond evaluate it from its lower to its higher node: the same numbers,
         // so the same verdict, and every task writes its own rows only.
+        let arithmetic = Arithmetic { small: false, fused: fuses() };
         let one_node = |node: usize, bytes: &mut [u8], mark: &mut AtomicU8| {
             let mut tally = Tally::default();
             let own = (input.load(node), u.get(node));
@@ -428,7 +463,8 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
                 let j = entry.neighbour as usize;
                 let other = (input.load(j), u.get(j));
                 let constants = table.ends(begin + at);
-                let bond = Bond { xi: entry.xi, eta: other.1 - own.1 };
+                let eta = other.1 - own.1;
+                let bond = Bond::of_kernel(entry.xi, eta, entry.inverse_square, arithmetic);
                 let seen = entry.volumes.map(|v| if v > T::zero() { T::one() } else { T::zero() });
                 let index = if node < j {
                     let pair = Pair { constants, volumes: seen };
@@ -450,6 +486,14 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         let CloudBits { bytes, row, marks } = bits;
         break_range(&one_node, 0, row, bytes, marks)
     }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+    "x86_64+avx2+fma"
+))]
+fn fuses() -> bool {
+    cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma")
 }
 
 /// Halves the rows until they are one chunk; their bytes and marks are split along.

@@ -32,6 +32,8 @@ pub trait BondKernel<T: Real, const D: usize>: Sync {
     type Sum: Record<T>;
     /// The result of one node.
     type Out: Record<T>;
+    /// True if something depends on the stretch of a bond.
+    const STRETCH: bool;
     /// Adds one bond.
     fn add(
         &self,
@@ -171,7 +173,9 @@ pub trait Family<T: Real, const D: usize>: Send + Sync + Sized {
     );
 
     /// Runs `kernel` over the families of all nodes. Each node's bonds are added in ascending
-    /// order of the neighbour, whatever the number of threads.
+    /// order of the neighbour, whatever the number of threads. Where the kernel looks at the
+    /// stretch of bonds ([`BondKernel::STRETCH`]), returns the largest t met at a visited node
+    /// ([`Bond::square_strain`]; 0 if all are smaller).
     #[allow(clippy::too_many_arguments)]
     fn sweep<Kn, I, J>(
         &self,
@@ -182,7 +186,8 @@ pub trait Family<T: Real, const D: usize>: Send + Sync + Sized {
         u: &Field<T, SVector<T, D>>,
         input: (I, J),
         out: &mut Field<T, Kn::Out>,
-    ) where
+    ) -> T
+    where
         Kn: BondKernel<T, D>,
         I: Inputs<T, Value = Kn::Node>,
         J: Inputs<T, Value = Kn::Own>;

@@ -67,6 +67,11 @@ impl CriticalStretch {
         let stiffness = 6.0 * shear / PI + 16.0 / (9.0 * PI * PI) * (bulk - 2.0 * shear);
         Self::from_square(fracture_energy / (stiffness * horizon), fracture_energy, horizon)
     }
+    /// 1/(λ_c² − 1).
+    #[inline(always)]
+    fn per_t<T: Real>(&self) -> T {
+        T::of(1.0 / (self.stretch * (2.0 + self.stretch)))
+    }
     /// s_c.
     pub fn stretch(&self) -> f64 {
         self.stretch
@@ -79,8 +84,9 @@ impl<T: Real, const D: usize, M: Material<T, D>> DamageCriterion<T, D, M> for Cr
 
     #[inline(always)]
     fn index(&self, tested: &TestedBond<'_, T, D, M, (), ()>) -> T {
-        let (xi, eta) = (tested.bond.xi, tested.bond.eta);
-        let critical = T::of(self.stretch * (2.0 + self.stretch));
-        eta.dot(&(xi + xi + eta)) * (xi.dot(&xi) * critical).recip()
+        tested.bond.square_strain() * self.per_t()
+    }
+    fn per_square_strain(&self) -> Option<T> {
+        Some(self.per_t())
     }
 }

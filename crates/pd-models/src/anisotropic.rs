@@ -188,14 +188,13 @@ impl<T: Real, const D: usize, const S: usize> ScalarState<T, D> for PolynomialMi
         self.lambda.map(T::of) * *sum * (*inverse_m * *inverse_m)
     }
     #[inline(always)]
-    fn scalar_force(
+    fn line(
         &self,
-        e: T,
         k: &PolynomialBond<T, S>,
         inverse_m: &T,
         state: &SVector<T, S>,
-    ) -> T {
-        *inverse_m * k.stiffness * e + k.shear.dot(state)
+    ) -> (Option<T>, T) {
+        (Some(k.shear.dot(state)), *inverse_m * k.stiffness)
     }
 }
 
@@ -349,8 +348,13 @@ impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSpli
         spread * *sum
     }
     #[inline(always)]
-    fn scalar_force(&self, e: T, k: &SplitBond<T, V>, k0_over_m: &T, state: &SVector<T, V>) -> T {
-        *k0_over_m * k.omega * e + k.strain.dot(state)
+    fn line(
+        &self,
+        k: &SplitBond<T, V>,
+        k0_over_m: &T,
+        state: &SVector<T, V>,
+    ) -> (Option<T>, T) {
+        (Some(k.strain.dot(state)), *k0_over_m * k.omega)
     }
 }
 

@@ -327,6 +327,7 @@ where
     /// P B − C H, which makes T = ω ((P B − C H) ξ + C η), and H.
     type NodeState = (SMatrix<T, D, D>, SMatrix<T, D, D>);
     const FOLLOWS_DAMAGE: bool = true;
+    const STRETCH: bool = false;
     const CAN_FAULT: bool = L::NEEDS_POSITIVE_J;
 
     fn density(&self, _: usize) -> f64 {

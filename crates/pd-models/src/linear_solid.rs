@@ -101,9 +101,9 @@ impl<T: Real, const D: usize> ScalarState<T, D> for LinearSolid {
         T::of(D as f64) * *inverse_m * *inverse_m * *sum
     }
     #[inline(always)]
-    fn scalar_force(&self, e: T, k: &(T, T), inverse_m: &T, state: &T) -> T {
+    fn line(&self, k: &(T, T), inverse_m: &T, state: &T) -> (Option<T>, T) {
         let volumetric = T::of(D as f64 * self.kappa - self.alpha / D as f64);
-        volumetric * *state * k.1 + T::of(self.alpha) * *inverse_m * k.0 * e
+        (Some(*state * (volumetric * k.1)), *inverse_m * (T::of(self.alpha) * k.0))
     }
 }
 
@@ -206,7 +206,7 @@ impl<T: Real, const D: usize> ScalarState<T, D> for MadenciOterkus {
         T::of(2.0 * self.a()) * *sum
     }
     #[inline(always)]
-    fn scalar_force(&self, e: T, k: &(T, T), (): &(), state: &T) -> T {
-        k.0 * *state + k.1 * e
+    fn line(&self, k: &(T, T), (): &(), state: &T) -> (Option<T>, T) {
+        (Some(k.0 * *state), k.1)
     }
 }

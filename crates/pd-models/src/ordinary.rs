@@ -55,14 +55,25 @@ pub trait ScalarState<T: Real, const D: usize>: Send + Sync {
         let _ = (sum, constants, family);
         Record::zero()
     }
+    /// The scalar force state t = a + b e as (a, b); `None` for a = 0.
+    fn line(
+        &self,
+        k: &Self::BondConst,
+        constants: &Self::NodeConst,
+        state: &Self::NodeState,
+    ) -> (Option<T>, T);
     /// Scalar force state t of a bond with extension `e`.
+    #[inline(always)]
     fn scalar_force(
         &self,
         e: T,
         k: &Self::BondConst,
         constants: &Self::NodeConst,
         state: &Self::NodeState,
-    ) -> T;
+    ) -> T {
+        let (a, b) = self.line(k, constants, state);
+        a.map_or(b * e, |a| a + b * e)
+    }
 }
 
 /// A material from a [`ScalarState`] and [`Kinematics`].
@@ -98,6 +109,7 @@ where
     type FamilyConst = S::FamilyConst;
     type FamilySum = S::FamilySum;
     type NodeState = S::NodeState;
+    const STRETCH: bool = K::STRETCH;
 
     fn density(&self, node: usize) -> f64 {
         self.model.density(node)
@@ -118,7 +130,7 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, Self::BondConst, S::NodeConst, ()>,
     ) {
-        let (e, _) = K::extension_and_direction(bond, end.bond.0);
+        let e = K::extension(bond, end.bond.0);
         self.model.add(sum, e, &end.bond.1, end.volume);
     }
     #[inline(always)]
@@ -137,21 +149,39 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>,
     ) -> SVector<T, D> {
-        let (e, m) = K::extension_and_direction(bond, end.bond.0);
-        m * self.model.scalar_force(e, &end.bond.1, end.node, end.state)
+        let (a, b) = self.model.line(&end.bond.1, end.node, end.state);
+        let (t, m) = K::force(bond, end.bond.0, a, b);
+        m * t
     }
-    /// (t βV + t' β'V) M: both ends share e and M.
     #[inline(always)]
     fn pair_force(
         &self,
         bond: &Bond<T, D>,
         ends: [End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>; 2],
     ) -> SVector<T, D> {
-        let (e, m) = K::extension_and_direction(bond, ends[0].bond.0);
-        let t = |end: &End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>| {
-            self.model.scalar_force(e, &end.bond.1, end.node, end.state) * end.volume
+        let mut sum = SVector::zeros();
+        self.add_pair_force(&mut sum, bond, ends);
+        sum
+    }
+    /// (t βV + t' β'V) M: both ends share e and M, and t is a line in e at both.
+    #[inline(always)]
+    fn add_pair_force(
+        &self,
+        sum: &mut SVector<T, D>,
+        bond: &Bond<T, D>,
+        [near, far]: [End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>; 2],
+    ) {
+        let (a0, b0) = self.model.line(&near.bond.1, near.node, near.state);
+        let (a1, b1) = self.model.line(&far.bond.1, far.node, far.state);
+        let both = |x: T, y: T| bond.fma(x, near.volume, y * far.volume);
+        let a = match (a0, a1) {
+            (Some(a0), Some(a1)) => Some(both(a0, a1)),
+            (Some(a0), None) => Some(a0 * near.volume),
+            (None, Some(a1)) => Some(a1 * far.volume),
+            (None, None) => None,
         };
-        m * (t(&ends[0]) + t(&ends[1]))
+        let (t, m) = K::force(bond, near.bond.0, a, both(b0, b1));
+        bond.add_scaled(sum, t, &m);
     }
 }
 
@@ -167,7 +197,7 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>,
     ) -> T {
-        let (e, _) = K::extension_and_direction(bond, end.bond.0);
+        let e = K::extension(bond, end.bond.0);
         T::of(0.5) * e * self.model.scalar_force(e, &end.bond.1, end.node, end.state)
     }
 }

@@ -55,6 +55,7 @@ where
     type NodeState = M::NodeState;
     const FOLLOWS_DAMAGE: bool = M::FOLLOWS_DAMAGE;
     const CAN_FAULT: bool = M::CAN_FAULT;
+    const STRETCH: bool = M::STRETCH;
 
     fn density(&self, node: usize) -> f64 {
         if node >= self.region.len() {
