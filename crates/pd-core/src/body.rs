@@ -51,16 +51,20 @@ enum InverseMass<T> {
     PerSite(Vec<T>),
 }
 
-/// The strain pass: family sums into node states.
-struct StrainKernel<'a, M>(&'a M);
+/// The strain pass: family sums into node states. It finds the largest t where the material looks at
+/// stretches anyway, or if it is to TRACK it.
+struct StrainKernel<'a, M, const TRACK: bool>(&'a M);
 
-impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for StrainKernel<'_, M> {
+impl<T: Real, const D: usize, M: Material<T, D>, const TRACK: bool> BondKernel<T, D>
+    for StrainKernel<'_, M, TRACK>
+{
     type Const = M::BondConst;
     type Node = M::NodeConst;
     type Own = M::FamilyConst;
     type Sum = M::FamilySum;
     type Out = M::NodeState;
     const STRETCH: bool = M::STRETCH;
+    const TRACK: bool = M::STRETCH || TRACK;
 
     #[inline(always)]
     fn add(
@@ -87,7 +91,7 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for StrainKern
 }
 
 /// The force pass: pair forces into force densities.
-struct ForceKernel<'a, M>(&'a M);
+struct ForceKernel<'a, M, const TRACK: bool>(&'a M);
 
 #[inline(always)]
 fn ends<'a, T: Real, const D: usize, M: Material<T, D>>(
@@ -102,13 +106,16 @@ fn ends<'a, T: Real, const D: usize, M: Material<T, D>>(
     ]
 }
 
-impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for ForceKernel<'_, M> {
+impl<T: Real, const D: usize, M: Material<T, D>, const TRACK: bool> BondKernel<T, D>
+    for ForceKernel<'_, M, TRACK>
+{
     type Const = M::BondConst;
     type Node = (M::NodeConst, M::NodeState);
     type Own = ();
     type Sum = SVector<T, D>;
     type Out = SVector<T, D>;
     const STRETCH: bool = M::STRETCH;
+    const TRACK: bool = M::STRETCH || TRACK;
 
     #[inline(always)]
     fn add(
@@ -409,34 +416,32 @@ where
         }
     }
 
-    /// Returns the largest t of the bonds where the material looks at it.
-    fn update_states(&mut self, visit: Visit) -> Option<T> {
-        if M::NodeState::LEN > 0 {
-            let t =
-            self.family.sweep(
-                &StrainKernel(&self.material),
-                &self.table,
-                self.bits.as_ref(),
-                visit,
-                &self.u,
-                (&self.node_const, &self.family_const),
-                &mut self.node_state,
-            );
-            return M::STRETCH.then_some(t);
+    /// Node states from family sums; returns the largest t ([`BondKernel::TRACK`]).
+    fn update_states<const TRACK: bool>(&mut self, visit: Visit) -> T {
+        if M::NodeState::LEN == 0 {
+            return T::zero();
         }
-        None
+        self.family.sweep(
+            &StrainKernel::<M, TRACK>(&self.material),
+            &self.table,
+            self.bits.as_ref(),
+            visit,
+            &self.u,
+            (&self.node_const, &self.family_const),
+            &mut self.node_state,
+        )
     }
-    fn update_forces(&mut self, visit: Visit) -> Option<T> {
-        let t = self.family.sweep(
-            &ForceKernel(&self.material),
+    /// Force densities from node states; returns the largest t ([`BondKernel::TRACK`]).
+    fn update_forces<const TRACK: bool>(&mut self, visit: Visit) -> T {
+        self.family.sweep(
+            &ForceKernel::<M, TRACK>(&self.material),
             &self.table,
             self.bits.as_ref(),
             visit,
             &self.u,
             ((&self.node_const, &self.node_state), ()),
             &mut self.force,
-        );
-        M::STRETCH.then_some(t)
+        )
     }
     fn find_fault(&self) -> Result<()> {
         if M::CAN_FAULT {
@@ -450,8 +455,7 @@ where
     }
     /// True if the force of a bond depends on nothing but the bond: then forces come before the
     /// test, which they may spare, and again at the nodes that lost a bond.
-    const FORCES_FIRST: bool =
-        <M::NodeState as Record<T>>::LEN == 0 && M::STRETCH && !M::FOLLOWS_DAMAGE;
+    const FORCES_FIRST: bool = <M::NodeState as Record<T>>::LEN == 0 && !M::FOLLOWS_DAMAGE;
 
     /// Tests all bonds, breaks those that fail and follows the damage.
     fn break_bonds(&mut self, events: &mut dyn BreakEvents<Self>) -> Result<Tally> {
@@ -485,9 +489,9 @@ where
         let lost = if M::FOLLOWS_DAMAGE { self.follow_constants(&mut bits) } else { Ok(0) };
         self.bits = Some(bits);
         let lost = lost?;
-        self.update_states(Visit::Marked);
+        self.update_states::<false>(Visit::Marked);
         if Self::FORCES_FIRST {
-            self.update_forces(Visit::Marked);
+            self.update_forces::<false>(Visit::Marked);
         }
         if let Some(bits) = &mut self.bits {
             F::clear_marks(bits);
@@ -797,9 +801,9 @@ where
         axpy(self.u.as_mut_slice(), T::of(dt), self.v.as_slice());
     }
     fn evaluate(&mut self) -> Result<()> {
-        self.update_states(Visit::All);
+        self.update_states::<false>(Visit::All);
         self.find_fault()?;
-        self.update_forces(Visit::All);
+        self.update_forces::<false>(Visit::All);
         Ok(())
     }
     fn evaluate_and_break(
@@ -807,16 +811,23 @@ where
         step: usize,
         events: &mut dyn BreakEvents<Self>,
     ) -> Result<Tally> {
-        let states = self.update_states(Visit::All);
+        let test = P::ACTIVE && step.is_multiple_of(self.policy.every());
+        let per_t = if test { self.policy.per_square_strain() } else { None };
+        let mut t = match per_t {
+            Some(_) => self.update_states::<true>(Visit::All),
+            None => self.update_states::<false>(Visit::All),
+        };
         self.find_fault()?;
-        let forces = if Self::FORCES_FIRST { self.update_forces(Visit::All) } else { None };
-        let mut tally = Tally::default();
-        if P::ACTIVE && step.is_multiple_of(self.policy.every()) {
-            // The largest index, if the passes so far tell it.
-            let known = match (states.or(forces), self.policy.per_square_strain()) {
-                (Some(t), Some(per_t)) => Some(t * per_t),
-                _ => None,
+        if Self::FORCES_FIRST {
+            t = match per_t {
+                Some(_) => self.update_forces::<true>(Visit::All),
+                None => self.update_forces::<false>(Visit::All),
             };
+        }
+        let mut tally = Tally::default();
+        if test {
+            // The largest index, if the sweep so far tells it.
+            let known = per_t.map(|per_t| t * per_t);
             if let Some(worst) = known.filter(|worst| *worst <= T::one()) {
                 self.worst = self.worst.max(worst.to_f64());
                 tally.worst = worst.to_f64();
@@ -825,7 +836,7 @@ where
             }
         }
         if !Self::FORCES_FIRST {
-            self.update_forces(Visit::All);
+            self.update_forces::<false>(Visit::All);
         }
         Ok(tally)
     }

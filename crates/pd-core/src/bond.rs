@@ -82,24 +82,24 @@ impl<T: Real, const D: usize> Bond<T, D> {
     }
     /// a·b of two vectors.
     #[inline(always)]
-    pub fn dot(&self, a: &SVector<T, D>, b: &SVector<T, D>) -> T {
+    pub fn dot<const N: usize>(&self, a: &SVector<T, N>, b: &SVector<T, N>) -> T {
         let mut sum = a[0] * b[0];
-        for d in 1..D {
+        for d in 1..N {
             sum = self.fma(a[d], b[d], sum);
         }
         sum
     }
     /// sum + a v.
     #[inline(always)]
-    pub fn add_scaled(&self, sum: &mut SVector<T, D>, a: T, v: &SVector<T, D>) {
-        for d in 0..D {
+    pub fn add_scaled<const N: usize>(&self, sum: &mut SVector<T, N>, a: T, v: &SVector<T, N>) {
+        for d in 0..N {
             sum[d] = self.fma(a, v[d], sum[d]);
         }
     }
     /// t = |Y|²/|ξ|² − 1 without cancellation, η·(η + 2ξ)/|ξ|².
     #[inline(always)]
     pub fn square_strain(&self) -> T {
-        self.dot(&self.eta, &(self.eta + (self.xi + self.xi))) * self.inverse_square
+        self.dot(&self.eta, &(self.deformed() + self.xi)) * self.inverse_square
     }
     /// 1 − 1/λ, λ − 1 and 1/λ, to less than two units in the last place of the first two.
     ///

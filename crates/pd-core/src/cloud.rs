@@ -236,7 +236,7 @@ where
                 Bond::of_kernel(entry.xi, job.u.get(j) - u, entry.inverse_square, arithmetic);
             let pair = Pair { constants: job.table.ends(begin + at), volumes: entry.volumes };
             job.kernel.add(&mut sum, &bond, pair, [&own, &job.input.load(j)]);
-            if Kn::STRETCH {
+            if Kn::TRACK {
                 let t = bond.square_strain();
                 largest = if t > largest { t } else { largest };
             }

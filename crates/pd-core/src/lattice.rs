@@ -314,7 +314,7 @@ fn add_lanes<'a, T, const D: usize, Kn, I, J, const N: usize, const MASKED: bool
         let mut sum = old;
         job.kernel.add(&mut sum, &bond, pair, [&nodes[0], &nodes[1]]);
         <Kn::Sum as Record<T>>::select(on, sum, old).put::<N>(sums, l);
-        if Kn::STRETCH {
+        if Kn::TRACK {
             let t = bond.square_strain();
             high[l] = if on & (t > high[l]) { t } else { high[l] };
             low[l] = if on & (t < low[l]) { t } else { low[l] };
@@ -436,21 +436,27 @@ where
                     job, &mut sums, (&mut low, &mut high), (start, false), (&near, &own_block), exact,
                 );
             }
+        }
+        if Kn::TRACK {
             for l in 0..N {
                 largest[l] = if high[l] > largest[l] { high[l] } else { largest[l] };
             }
         }
+        // A copy, so that the sums themselves are only read as whole vectors and stay in registers.
+        let mut finished = <Kn::Sum as Record<T>>::lanes::<N>();
+        for l in 0..N {
+            <Kn::Sum as Record<T>>::get::<N>(&sums, l).put::<N>(&mut finished, l);
+        }
         let owns = job.own.block::<N>(start);
+        let before = <Kn::Out as Record<T>>::read_lanes::<N>(&out, start - first);
         let mut closed = <Kn::Out as Record<T>>::lanes::<N>();
         for l in 0..N {
-            let previous = <Kn::Out as Record<T>>::read(&out, start - first + l);
-            let sum = <Kn::Sum as Record<T>>::get::<N>(&sums, l);
+            let previous = <Kn::Out as Record<T>>::get::<N>(&before, l);
+            let sum = <Kn::Sum as Record<T>>::get::<N>(&finished, l);
             let (node, own) = (I::lane::<N>(&own_block, l), J::lane::<N>(&owns, l));
             job.kernel.close(&sum, &node, &own, previous).put::<N>(&mut closed, l);
         }
-        for l in (0..N).filter(|l| mask >> l & 1 == 1) {
-            <Kn::Out as Record<T>>::get::<N>(&closed, l).write(&mut out, start - first + l);
-        }
+        <Kn::Out as Record<T>>::write_lanes::<N>(&closed, &mut out, start - first, mask);
     }
     largest.into_iter().fold(T::zero(), |a, b| if b > a { b } else { a })
 }

@@ -46,6 +46,15 @@ pub trait Record<T: Real>: Copy + Send + Sync + 'static {
     fn read(planes: &Self::PlanesMut<'_>, i: usize) -> Self;
     /// Writes node `i`.
     fn write(self, planes: &mut Self::PlanesMut<'_>, i: usize);
+    /// Nodes `i .. i + N` of writable planes.
+    fn read_lanes<const N: usize>(planes: &Self::PlanesMut<'_>, i: usize) -> Self::Lanes<N>;
+    /// Writes those of the nodes `i .. i + N` whose bit of `mask` is set.
+    fn write_lanes<const N: usize>(
+        lanes: &Self::Lanes<N>,
+        planes: &mut Self::PlanesMut<'_>,
+        i: usize,
+        mask: u32,
+    );
 }
 
 impl<T: Real> Record<T> for T {
@@ -100,6 +109,22 @@ impl<T: Real> Record<T> for T {
     fn write(self, planes: &mut &mut [T], i: usize) {
         planes[i] = self;
     }
+    #[inline(always)]
+    fn read_lanes<const N: usize>(planes: &&mut [T], i: usize) -> [T; N] {
+        let slots = &planes[i..i + N];
+        let mut lanes = [T::zero(); N];
+        for l in 0..N {
+            lanes[l] = slots[l];
+        }
+        lanes
+    }
+    #[inline(always)]
+    fn write_lanes<const N: usize>(lanes: &[T; N], planes: &mut &mut [T], i: usize, mask: u32) {
+        let slots = &mut planes[i..i + N];
+        for l in 0..N {
+            slots[l] = if mask >> l & 1 == 1 { lanes[l] } else { slots[l] };
+        }
+    }
 }
 
 impl<T: Real> Record<T> for () {
@@ -131,6 +156,10 @@ impl<T: Real> Record<T> for () {
     fn read((): &(), _: usize) -> Self {}
     #[inline(always)]
     fn write(self, (): &mut (), _: usize) {}
+    #[inline(always)]
+    fn read_lanes<const N: usize>((): &(), _: usize) {}
+    #[inline(always)]
+    fn write_lanes<const N: usize>((): &(), (): &mut (), _: usize, _: u32) {}
 }
 
 impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
@@ -212,6 +241,29 @@ impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
             }
         }
     }
+    #[inline(always)]
+    fn read_lanes<const N: usize>(planes: &Self::PlanesMut<'_>, i: usize) -> Self::Lanes<N> {
+        let mut lanes = Self::lanes::<N>();
+        for c in 0..C {
+            for r in 0..R {
+                lanes[c][r] = T::read_lanes::<N>(&planes[c][r], i);
+            }
+        }
+        lanes
+    }
+    #[inline(always)]
+    fn write_lanes<const N: usize>(
+        lanes: &Self::Lanes<N>,
+        planes: &mut Self::PlanesMut<'_>,
+        i: usize,
+        mask: u32,
+    ) {
+        for c in 0..C {
+            for r in 0..R {
+                T::write_lanes::<N>(&lanes[c][r], &mut planes[c][r], i, mask);
+            }
+        }
+    }
 }
 
 impl<T: Real, A: Record<T>, B: Record<T>> Record<T> for (A, B) {
@@ -271,5 +323,19 @@ impl<T: Real, A: Record<T>, B: Record<T>> Record<T> for (A, B) {
     fn write(self, planes: &mut Self::PlanesMut<'_>, i: usize) {
         self.0.write(&mut planes.0, i);
         self.1.write(&mut planes.1, i);
+    }
+    #[inline(always)]
+    fn read_lanes<const N: usize>(planes: &Self::PlanesMut<'_>, i: usize) -> Self::Lanes<N> {
+        (A::read_lanes::<N>(&planes.0, i), B::read_lanes::<N>(&planes.1, i))
+    }
+    #[inline(always)]
+    fn write_lanes<const N: usize>(
+        lanes: &Self::Lanes<N>,
+        planes: &mut Self::PlanesMut<'_>,
+        i: usize,
+        mask: u32,
+    ) {
+        A::write_lanes::<N>(&lanes.0, &mut planes.0, i, mask);
+        B::write_lanes::<N>(&lanes.1, &mut planes.1, i, mask);
     }
 }

@@ -7,7 +7,7 @@ use crate::kinematics::BondLength;
 use crate::linear_solid::weighted_volume;
 use crate::ordinary::ScalarState;
 use nalgebra::{Matrix6, SMatrix, SVector};
-use pd_core::bond::{Neighbourhood, Scale};
+use pd_core::bond::{Bond, Neighbourhood, Scale};
 use pd_core::influence::Influence;
 use pd_core::{Real, Result as CoreResult};
 use std::sync::Arc;
@@ -180,8 +180,15 @@ impl<T: Real, const D: usize, const S: usize> ScalarState<T, D> for PolynomialMi
         weighted_volume(m, family.node, true).map(|m| (T::of(1.0 / m), ()))
     }
     #[inline(always)]
-    fn add(&self, sum: &mut SVector<T, S>, e: T, k: &PolynomialBond<T, S>, volume: T) {
-        *sum += k.shear * (e * volume);
+    fn add(
+        &self,
+        sum: &mut SVector<T, S>,
+        bond: &Bond<T, D>,
+        e: T,
+        k: &PolynomialBond<T, S>,
+        volume: T,
+    ) {
+        bond.add_scaled(sum, e * volume, &k.shear);
     }
     #[inline(always)]
     fn close(&self, sum: &SVector<T, S>, inverse_m: &T, (): &()) -> SVector<T, S> {
@@ -190,11 +197,13 @@ impl<T: Real, const D: usize, const S: usize> ScalarState<T, D> for PolynomialMi
     #[inline(always)]
     fn line(
         &self,
+        bond: &Bond<T, D>,
+        weight: T,
         k: &PolynomialBond<T, S>,
         inverse_m: &T,
         state: &SVector<T, S>,
     ) -> (Option<T>, T) {
-        (Some(k.shear.dot(state)), *inverse_m * k.stiffness)
+        (Some(bond.dot(&k.shear, state) * weight), *inverse_m * (k.stiffness * weight))
     }
 }
 
@@ -340,8 +349,15 @@ impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSpli
         Ok((T::of(k0 / m), spread.map(T::of)))
     }
     #[inline(always)]
-    fn add(&self, sum: &mut SVector<T, V>, e: T, k: &SplitBond<T, V>, volume: T) {
-        *sum += k.strain * (e * volume);
+    fn add(
+        &self,
+        sum: &mut SVector<T, V>,
+        bond: &Bond<T, D>,
+        e: T,
+        k: &SplitBond<T, V>,
+        volume: T,
+    ) {
+        bond.add_scaled(sum, e * volume, &k.strain);
     }
     #[inline(always)]
     fn close(&self, sum: &SVector<T, V>, _: &T, spread: &SMatrix<T, V, V>) -> SVector<T, V> {
@@ -350,11 +366,13 @@ impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSpli
     #[inline(always)]
     fn line(
         &self,
+        bond: &Bond<T, D>,
+        weight: T,
         k: &SplitBond<T, V>,
         k0_over_m: &T,
         state: &SVector<T, V>,
     ) -> (Option<T>, T) {
-        (Some(k.strain.dot(state)), *k0_over_m * k.omega)
+        (Some(bond.dot(&k.strain, state) * weight), *k0_over_m * (k.omega * weight))
     }
 }
 

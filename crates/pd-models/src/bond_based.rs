@@ -100,8 +100,8 @@ impl<T: Real, const D: usize> ScalarState<T, D> for Pmb {
         T::of(0.5 * self.micromodulus(scale.horizon) * omega / xi.norm())
     }
     #[inline(always)]
-    fn line(&self, k: &T, (): &(), (): &()) -> (Option<T>, T) {
-        (None, *k)
+    fn line(&self, _: &Bond<T, D>, weight: T, k: &T, (): &(), (): &()) -> (Option<T>, T) {
+        (None, *k * weight)
     }
 }
 
@@ -129,8 +129,15 @@ impl<T: Real, const D: usize> ScalarState<T, D> for PmbOnFamily {
         Ok((T::of(if sum > 0.0 { 0.5 * self.0.modulus / sum } else { 0.0 }), ()))
     }
     #[inline(always)]
-    fn line(&self, k: &T, half_c: &T, (): &()) -> (Option<T>, T) {
-        (None, *half_c * *k)
+    fn line(
+        &self,
+        _: &Bond<T, D>,
+        weight: T,
+        k: &T,
+        half_c: &T,
+        (): &(),
+    ) -> (Option<T>, T) {
+        (None, *half_c * (*k * weight))
     }
 }
 

@@ -5,7 +5,7 @@ use crate::elasticity::{Isotropic, PlaneMode};
 use crate::kinematics::BondLength;
 use crate::ordinary::ScalarState;
 use nalgebra::SVector;
-use pd_core::bond::{Neighbourhood, Scale};
+use pd_core::bond::{Bond, Neighbourhood, Scale};
 use pd_core::influence::Influence;
 use pd_core::{Real, Result as CoreResult};
 use std::f64::consts::PI;
@@ -67,9 +67,19 @@ impl LinearSolid {
     }
 }
 
+/// Constants of a bond of [`LinearSolid`].
+#[derive(Debug, Clone, Copy)]
+pub struct LinearBond<T> {
+    /// ω|ξ|.
+    sum: T,
+    /// (Dκ − α/D) ω|ξ|, which the dilatation multiplies.
+    volumetric: T,
+    /// α ω, which the extension multiplies.
+    deviatoric: T,
+}
+
 impl<T: Real, const D: usize> ScalarState<T, D> for LinearSolid {
-    /// (ω, ω|ξ|).
-    type BondConst = (T, T);
+    type BondConst = LinearBond<T>;
     /// 1/m.
     type NodeConst = T;
     type FamilyConst = ();
@@ -81,29 +91,40 @@ impl<T: Real, const D: usize> ScalarState<T, D> for LinearSolid {
     fn density(&self, _: usize) -> f64 {
         self.density
     }
-    fn bond_const(&self, xi: &SVector<f64, D>, scale: Scale) -> (T, T) {
+    fn bond_const(&self, xi: &SVector<f64, D>, scale: Scale) -> LinearBond<T> {
         let omega = self.influence.weight(xi.norm() / scale.horizon);
-        (T::of(omega), T::of(omega * xi.norm()))
+        let sum = omega * xi.norm();
+        LinearBond {
+            sum: T::of(sum),
+            volumetric: T::of((D as f64 * self.kappa - self.alpha / D as f64) * sum),
+            deviatoric: T::of(self.alpha * omega),
+        }
     }
     fn node_const(
         &self,
-        family: &Neighbourhood<'_, (BondLength<T>, (T, T)), D>,
+        family: &Neighbourhood<'_, (BondLength<T>, LinearBond<T>), D>,
     ) -> CoreResult<(T, ())> {
-        let m = family.sum(|m| m.bond.1.0.to_f64() * m.xi.norm_squared());
+        let m = family.sum(|m| m.bond.1.sum.to_f64() * m.xi.norm());
         weighted_volume(m, family.node, self.dimension == D).map(|m| (T::of(1.0 / m), ()))
     }
     #[inline(always)]
-    fn add(&self, sum: &mut T, e: T, k: &(T, T), volume: T) {
-        *sum += k.1 * e * volume;
+    fn add(&self, sum: &mut T, bond: &Bond<T, D>, e: T, k: &LinearBond<T>, volume: T) {
+        *sum = bond.fma(e, k.sum * volume, *sum);
     }
     #[inline(always)]
     fn close(&self, sum: &T, inverse_m: &T, (): &()) -> T {
         T::of(D as f64) * *inverse_m * *inverse_m * *sum
     }
     #[inline(always)]
-    fn line(&self, k: &(T, T), inverse_m: &T, state: &T) -> (Option<T>, T) {
-        let volumetric = T::of(D as f64 * self.kappa - self.alpha / D as f64);
-        (Some(*state * (volumetric * k.1)), *inverse_m * (T::of(self.alpha) * k.0))
+    fn line(
+        &self,
+        _: &Bond<T, D>,
+        weight: T,
+        k: &LinearBond<T>,
+        inverse_m: &T,
+        state: &T,
+    ) -> (Option<T>, T) {
+        (Some(*state * (k.volumetric * weight)), *inverse_m * (k.deviatoric * weight))
     }
 }
 
@@ -198,15 +219,22 @@ impl<T: Real, const D: usize> ScalarState<T, D> for MadenciOterkus {
         weighted_volume(1.0, family.node, self.dimension == D).map(|_| ((), ()))
     }
     #[inline(always)]
-    fn add(&self, sum: &mut T, e: T, k: &(T, T), volume: T) {
-        *sum += k.0 * e * volume;
+    fn add(&self, sum: &mut T, bond: &Bond<T, D>, e: T, k: &(T, T), volume: T) {
+        *sum = bond.fma(e, k.0 * volume, *sum);
     }
     #[inline(always)]
     fn close(&self, sum: &T, (): &(), (): &()) -> T {
         T::of(2.0 * self.a()) * *sum
     }
     #[inline(always)]
-    fn line(&self, k: &(T, T), (): &(), state: &T) -> (Option<T>, T) {
-        (Some(k.0 * *state), k.1)
+    fn line(
+        &self,
+        _: &Bond<T, D>,
+        weight: T,
+        k: &(T, T),
+        (): &(),
+        state: &T,
+    ) -> (Option<T>, T) {
+        (Some(k.0 * weight * *state), k.1 * weight)
     }
 }

@@ -41,8 +41,15 @@ pub trait ScalarState<T: Real, const D: usize>: Send + Sync {
     }
     /// Adds the extension `e` of a bond to the family sum.
     #[inline(always)]
-    fn add(&self, sum: &mut Self::FamilySum, e: T, k: &Self::BondConst, volume: T) {
-        let _ = (sum, e, k, volume);
+    fn add(
+        &self,
+        sum: &mut Self::FamilySum,
+        bond: &Bond<T, D>,
+        e: T,
+        k: &Self::BondConst,
+        volume: T,
+    ) {
+        let _ = (sum, bond, e, k, volume);
     }
     /// State of a node.
     #[inline(always)]
@@ -55,25 +62,16 @@ pub trait ScalarState<T: Real, const D: usize>: Send + Sync {
         let _ = (sum, constants, family);
         Record::zero()
     }
-    /// The scalar force state t = a + b e as (a, b); `None` for a = 0.
+    /// The scalar force state t = a + b e, times `weight`, as (a, b); `None` for a = 0. Constants of
+    /// the bond times the weight are the same for a whole block of a lattice: multiply them first.
     fn line(
         &self,
+        bond: &Bond<T, D>,
+        weight: T,
         k: &Self::BondConst,
         constants: &Self::NodeConst,
         state: &Self::NodeState,
     ) -> (Option<T>, T);
-    /// Scalar force state t of a bond with extension `e`.
-    #[inline(always)]
-    fn scalar_force(
-        &self,
-        e: T,
-        k: &Self::BondConst,
-        constants: &Self::NodeConst,
-        state: &Self::NodeState,
-    ) -> T {
-        let (a, b) = self.line(k, constants, state);
-        a.map_or(b * e, |a| a + b * e)
-    }
 }
 
 /// A material from a [`ScalarState`] and [`Kinematics`].
@@ -131,7 +129,7 @@ where
         end: End<'_, T, Self::BondConst, S::NodeConst, ()>,
     ) {
         let e = K::extension(bond, end.bond.0);
-        self.model.add(sum, e, &end.bond.1, end.volume);
+        self.model.add(sum, bond, e, &end.bond.1, end.volume);
     }
     #[inline(always)]
     fn node_state(
@@ -149,7 +147,7 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>,
     ) -> SVector<T, D> {
-        let (a, b) = self.model.line(&end.bond.1, end.node, end.state);
+        let (a, b) = self.model.line(bond, T::one(), &end.bond.1, end.node, end.state);
         let (t, m) = K::force(bond, end.bond.0, a, b);
         m * t
     }
@@ -171,16 +169,15 @@ where
         bond: &Bond<T, D>,
         [near, far]: [End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>; 2],
     ) {
-        let (a0, b0) = self.model.line(&near.bond.1, near.node, near.state);
-        let (a1, b1) = self.model.line(&far.bond.1, far.node, far.state);
-        let both = |x: T, y: T| bond.fma(x, near.volume, y * far.volume);
-        let a = match (a0, a1) {
-            (Some(a0), Some(a1)) => Some(both(a0, a1)),
-            (Some(a0), None) => Some(a0 * near.volume),
-            (None, Some(a1)) => Some(a1 * far.volume),
-            (None, None) => None,
+        let line = |end: &End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>| {
+            self.model.line(bond, end.volume, &end.bond.1, end.node, end.state)
         };
-        let (t, m) = K::force(bond, near.bond.0, a, both(b0, b1));
+        let ((a0, b0), (a1, b1)) = (line(&near), line(&far));
+        let a = match (a0, a1) {
+            (Some(a0), Some(a1)) => Some(a0 + a1),
+            (a0, a1) => a0.or(a1),
+        };
+        let (t, m) = K::force(bond, near.bond.0, a, b0 + b1);
         bond.add_scaled(sum, t, &m);
     }
 }
@@ -198,6 +195,7 @@ where
         end: End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>,
     ) -> T {
         let e = K::extension(bond, end.bond.0);
-        T::of(0.5) * e * self.model.scalar_force(e, &end.bond.1, end.node, end.state)
+        let (a, b) = self.model.line(bond, T::one(), &end.bond.1, end.node, end.state);
+        T::of(0.5) * e * a.map_or(b * e, |a| bond.fma(b, e, a))
     }
 }
