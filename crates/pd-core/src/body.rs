@@ -443,6 +443,24 @@ where
             &mut self.force,
         )
     }
+    /// As [`update_states`](Self::update_states), also with stretches a linear material ignores.
+    fn update_states_and(&mut self, track: bool) -> T {
+        if Self::CAN_TRACK {
+            if track {
+                return self.update_states::<true>(Visit::All);
+            }
+        }
+        self.update_states::<false>(Visit::All)
+    }
+    /// As [`update_forces`](Self::update_forces), also with stretches a linear material ignores.
+    fn update_forces_and(&mut self, track: bool) -> T {
+        if Self::CAN_TRACK {
+            if track {
+                return self.update_forces::<true>(Visit::All);
+            }
+        }
+        self.update_forces::<false>(Visit::All)
+    }
     fn find_fault(&self) -> Result<()> {
         if M::CAN_FAULT {
             for node in 0..self.nodes() {
@@ -456,6 +474,10 @@ where
     /// True if the force of a bond depends on nothing but the bond: then forces come before the
     /// test, which they may spare, and again at the nodes that lost a bond.
     const FORCES_FIRST: bool = <M::NodeState as Record<T>>::LEN == 0 && !M::FOLLOWS_DAMAGE;
+
+    /// True if stretches are to be found for the test of bonds that the material does not look at
+    /// (a constant of its own, so that kernels nobody needs are not compiled).
+    const CAN_TRACK: bool = P::ACTIVE && !M::STRETCH;
 
     /// Tests all bonds, breaks those that fail and follows the damage.
     fn break_bonds(&mut self, events: &mut dyn BreakEvents<Self>) -> Result<Tally> {
@@ -813,16 +835,11 @@ where
     ) -> Result<Tally> {
         let test = P::ACTIVE && step.is_multiple_of(self.policy.every());
         let per_t = if test { self.policy.per_square_strain() } else { None };
-        let mut t = match per_t {
-            Some(_) => self.update_states::<true>(Visit::All),
-            None => self.update_states::<false>(Visit::All),
-        };
+        let track = per_t.is_some();
+        let mut t = self.update_states_and(track);
         self.find_fault()?;
         if Self::FORCES_FIRST {
-            t = match per_t {
-                Some(_) => self.update_forces::<true>(Visit::All),
-                None => self.update_forces::<false>(Visit::All),
-            };
+            t = self.update_forces_and(track);
         }
         let mut tally = Tally::default();
         if test {

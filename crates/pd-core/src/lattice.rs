@@ -477,7 +477,7 @@ where
     J: Inputs<T, Value = Kn::Own>,
 {
     let fused = cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma");
-    if T::WIDTH == 2 * LANES {
+    if T::WIDE {
         sweep_blocks::<T, D, Kn, I, J, { 2 * LANES }>(job, sites, out, fused)
     } else {
         sweep_blocks::<T, D, Kn, I, J, LANES>(job, sites, out, fused)

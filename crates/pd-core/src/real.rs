@@ -8,6 +8,8 @@ pub trait Real: nalgebra::RealField + Copy + Default {
     const EPSILON: f64;
     /// Numbers in a vector register of 64 bytes: nodes that a lattice kernel handles together.
     const WIDTH: usize;
+    /// True for 16 numbers, false for 8.
+    const WIDE: bool = Self::WIDTH == 16;
     /// Coefficients, from the constant on, of the polynomial p with (1 − (1+t)^(−½)) = t p(t) for
     /// |t| ≤ [`Bond::SMALL`](crate::Bond::SMALL): it interpolates in the Chebyshev points of that
     /// range, of the lowest degree whose relative error (4·10⁻¹⁷ in `f64`, 1.3·10⁻⁹ in `f32`) stays
