@@ -101,7 +101,7 @@ impl<T: Real, const D: usize> Bond<T, D> {
     pub fn square_strain(&self) -> T {
         self.dot(&self.eta, &(self.deformed() + self.xi)) * self.inverse_square
     }
-    /// 1 − 1/λ, λ − 1 and 1/λ, to less than two units in the last place of the first two.
+    /// 1 − 1/λ to less than two, λ − 1 to less than three units in the last place, and 1/λ.
     ///
     /// For small |t|, g = 1 − (1+t)^(−½) = t p(t) with the polynomial [`Real::STRETCH`] and
     /// λ − 1 = t − g(1+t); else g = t/(λ(1+λ)) and λ − 1 = t/(1+λ) with λ = |Y|/|ξ|.
@@ -204,5 +204,108 @@ impl<K: Copy, const D: usize> Neighbourhood<'_, K, D> {
     /// Σ g(member) β V over the neighbourhood.
     pub fn sum(&self, g: impl Fn(&Member<K, D>) -> f64) -> f64 {
         self.members.iter().map(|m| g(m) * m.volume).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// a + b and a · b as unevaluated sums of two numbers, exact.
+    fn two_sum(a: f64, b: f64) -> [f64; 2] {
+        let sum = a + b;
+        let part = sum - a;
+        [sum, (a - (sum - part)) + (b - part)]
+    }
+    fn two_product(a: f64, b: f64) -> [f64; 2] {
+        let product = a * b;
+        [product, a.mul_add(b, -product)]
+    }
+    /// Product of two such sums, to about 2⁻¹⁰⁰.
+    fn product([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
+        let [p, e] = two_product(a, c);
+        two_sum(p, e + (a * d + b * c))
+    }
+    fn ulp(x: f64) -> f64 {
+        let x = x.abs();
+        f64::from_bits(x.to_bits() + 1) - x
+    }
+
+    /// Error of g and λ − 1 in units in the last place, by the residuals of (1−g)²(1+t) = 1 and
+    /// (1 + (λ−1))² = 1 + t in twice the precision.
+    fn errors(t: f64, found: Stretch<f64>) -> [f64; 2] {
+        let square = two_sum(1.0, t);
+        let [inverse, lambda] = [two_sum(1.0, -found.g), two_sum(1.0, found.strain)];
+        let [high, low] = product(product(inverse, inverse), square);
+        let g = ((high - 1.0) + low) / (2.0 * (1.0 - found.g) * (1.0 + t));
+        let [high, low] = product(lambda, lambda);
+        let e = ((high - square[0]) + (low - square[1])) / (2.0 * (1.0 + found.strain));
+        [g.abs() / ulp(found.g), e.abs() / ulp(found.strain)]
+    }
+
+    /// Bonds with t from −1/32 to 1/32 and the paths that a kernel may take.
+    fn for_every_small_bond(mut check: impl FnMut(Bond<f64, 1>)) {
+        for sign in [-1.0, 1.0] {
+            for k in 0..40_000 {
+                // Dense near the ends of the range, down to 1e-9.
+                let size = (Bond::<f64, 1>::SMALL * 0.999_999) * (-20.0 * k as f64 / 40_000.0).exp();
+                let eta = (1.0 + sign * size).sqrt() - 1.0;
+                for (small, fused) in [(true, true), (true, false), (false, true), (false, false)] {
+                    let path = Arithmetic { small, fused };
+                    check(Bond::of_kernel([1.0].into(), [eta].into(), 1.0, path));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn polynomials_are_right_to_a_few_units_in_the_last_place() {
+        let mut worst = [0.0_f64; 2];
+        for_every_small_bond(|bond| {
+            let error = errors(bond.square_strain(), bond.stretch());
+            worst = [worst[0].max(error[0]), worst[1].max(error[1])];
+        });
+        assert!(worst[0] < 2.0 && worst[1] < 3.0, "{worst:?}");
+        assert!(worst[0] > 0.5, "an error of less than rounding means that nothing was measured");
+    }
+
+    #[test]
+    fn single_precision_is_right_to_two_units_in_the_last_place() {
+        for k in 1..=20_000 {
+            for sign in [-1.0_f32, 1.0] {
+                let eta = sign * 0.0155 * k as f32 / 20_000.0;
+                for fused in [true, false] {
+                    let path = Arithmetic { small: true, fused };
+                    let bond = Bond::<f32, 1>::of_kernel([1.0].into(), [eta].into(), 1.0, path);
+                    let t = f64::from(bond.square_strain());
+                    let found = bond.stretch().g;
+                    let exact = t / (1.0 + t + (1.0 + t).sqrt());
+                    let unit = f64::from(f32::from_bits(found.abs().to_bits() + 1) - found.abs());
+                    assert!((f64::from(found) - exact).abs() < 2.0 * unit, "t = {t}");
+                }
+            }
+        }
+    }
+
+    /// A bond has the same bits whether its block was taken for small or not.
+    #[test]
+    fn known_small_or_found_small_is_the_same() {
+        for_every_small_bond(|bond| {
+            let other = Arithmetic { small: !bond.arithmetic.small, ..bond.arithmetic };
+            let other = Bond { arithmetic: other, ..bond };
+            let (a, b) = (bond.stretch(), other.stretch());
+            assert!(a.g == b.g && a.strain == b.strain && a.inverse == b.inverse);
+        });
+    }
+
+    #[test]
+    fn large_stretches_take_the_exact_path() {
+        for lambda in [0.01, 0.5, 0.9, 0.98, 1.02, 1.5, 3.0, 100.0] {
+            let bond = Bond::<f64, 1>::new([2.0].into(), [2.0 * (lambda - 1.0)].into());
+            let found = bond.stretch();
+            assert!((found.g / (1.0 - 1.0 / lambda) - 1.0).abs() < 1e-12, "λ = {lambda}");
+            assert!((found.strain / (lambda - 1.0) - 1.0).abs() < 1e-12, "λ = {lambda}");
+            assert!((found.inverse * lambda - 1.0).abs() < 1e-12, "λ = {lambda}");
+        }
     }
 }
