@@ -12,7 +12,7 @@ fn force_state<const D: usize, F: Family<f64, D>, M: Material<f64, D>>(
 ) -> SVector<f64, D> {
     let unit = body.family().unit();
     let eta = (body.displacement(n.node) - body.displacement(node)) / unit;
-    let bond = Bond { xi: n.xi, eta };
+    let bond = Bond::new(n.xi, eta);
     let constants = body.material().bond_const(&n.xi, body.family().scale(node));
     let (c, s) = (body.constants(node), body.state(node));
     let end = End { bond: &constants, node: &c, state: &s, volume: n.volume };

@@ -53,15 +53,20 @@ enum InverseMass<T> {
     PerSite(Vec<T>),
 }
 
-/// The strain pass: family sums into node states.
-struct StrainKernel<'a, M>(&'a M);
+/// The strain pass: family sums into node states. It finds the largest t where the material looks at
+/// stretches anyway, or if it is to TRACK it.
+struct StrainKernel<'a, M, const TRACK: bool>(&'a M);
 
-impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for StrainKernel<'_, M> {
+impl<T: Real, const D: usize, M: Material<T, D>, const TRACK: bool> BondKernel<T, D>
+    for StrainKernel<'_, M, TRACK>
+{
     type Const = M::BondConst;
     type Node = M::NodeConst;
     type Own = M::FamilyConst;
     type Sum = M::FamilySum;
     type Out = M::NodeState;
+    const STRETCH: bool = M::STRETCH;
+    const TRACK: bool = M::STRETCH || TRACK;
 
     #[inline(always)]
     fn add(
@@ -88,7 +93,7 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for StrainKern
 }
 
 /// The force pass: pair forces into force densities.
-struct ForceKernel<'a, M>(&'a M);
+struct ForceKernel<'a, M, const TRACK: bool>(&'a M);
 
 #[inline(always)]
 fn ends<'a, T: Real, const D: usize, M: Material<T, D>>(
@@ -103,12 +108,16 @@ fn ends<'a, T: Real, const D: usize, M: Material<T, D>>(
     ]
 }
 
-impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for ForceKernel<'_, M> {
+impl<T: Real, const D: usize, M: Material<T, D>, const TRACK: bool> BondKernel<T, D>
+    for ForceKernel<'_, M, TRACK>
+{
     type Const = M::BondConst;
     type Node = (M::NodeConst, M::NodeState);
     type Own = ();
     type Sum = SVector<T, D>;
     type Out = SVector<T, D>;
+    const STRETCH: bool = M::STRETCH;
+    const TRACK: bool = M::STRETCH || TRACK;
 
     #[inline(always)]
     fn add(
@@ -118,7 +127,7 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for ForceKerne
         pair: Pair<'_, T, M::BondConst>,
         nodes: [&Self::Node; 2],
     ) {
-        *sum += self.0.pair_force(bond, ends::<T, D, M>(pair, nodes));
+        self.0.add_pair_force(sum, bond, ends::<T, D, M>(pair, nodes));
     }
     #[inline(always)]
     fn close(
@@ -141,6 +150,7 @@ impl<T: Real, const D: usize, M: StrainEnergy<T, D>> BondKernel<T, D> for Energy
     type Own = ();
     type Sum = T;
     type Out = T;
+    const STRETCH: bool = M::STRETCH;
 
     #[inline(always)]
     fn add(
@@ -421,7 +431,7 @@ where
         let mut members = Vec::new();
         self.family.members(node, &self.table, self.bits.as_ref(), &mut members);
         let (constants, of_family) = (self.constants(node), self.family_constants(node));
-        let bond = |xi: &SVector<f64, D>| Bond { xi: xi.map(T::of), eta: (h * xi).map(T::of) };
+        let bond = |xi: &SVector<f64, D>| Bond::new(xi.map(T::of), (h * xi).map(T::of));
         let mut sum = M::FamilySum::zero();
         for m in &members {
             let volume = T::of(m.volume);
@@ -437,29 +447,50 @@ where
         })
     }
 
-    fn update_states(&mut self, visit: Visit) {
-        if M::NodeState::LEN > 0 {
-            self.family.sweep(
-                &StrainKernel(&self.material),
-                &self.table,
-                self.bits.as_ref(),
-                visit,
-                &self.u,
-                (&self.node_const, &self.family_const),
-                &mut self.node_state,
-            );
+    /// Node states from family sums; returns the largest t ([`BondKernel::TRACK`]).
+    fn update_states<const TRACK: bool>(&mut self, visit: Visit) -> T {
+        if M::NodeState::LEN == 0 {
+            return T::zero();
         }
-    }
-    fn update_forces(&mut self) {
         self.family.sweep(
-            &ForceKernel(&self.material),
+            &StrainKernel::<M, TRACK>(&self.material),
             &self.table,
             self.bits.as_ref(),
-            Visit::All,
+            visit,
+            &self.u,
+            (&self.node_const, &self.family_const),
+            &mut self.node_state,
+        )
+    }
+    /// Force densities from node states; returns the largest t ([`BondKernel::TRACK`]).
+    fn update_forces<const TRACK: bool>(&mut self, visit: Visit) -> T {
+        self.family.sweep(
+            &ForceKernel::<M, TRACK>(&self.material),
+            &self.table,
+            self.bits.as_ref(),
+            visit,
             &self.u,
             ((&self.node_const, &self.node_state), ()),
             &mut self.force,
-        );
+        )
+    }
+    /// As [`update_states`](Self::update_states), also with stretches a linear material ignores.
+    fn update_states_and(&mut self, track: bool) -> T {
+        if Self::CAN_TRACK {
+            if track {
+                return self.update_states::<true>(Visit::All);
+            }
+        }
+        self.update_states::<false>(Visit::All)
+    }
+    /// As [`update_forces`](Self::update_forces), also with stretches a linear material ignores.
+    fn update_forces_and(&mut self, track: bool) -> T {
+        if Self::CAN_TRACK {
+            if track {
+                return self.update_forces::<true>(Visit::All);
+            }
+        }
+        self.update_forces::<false>(Visit::All)
     }
     fn find_fault(&self) -> Result<()> {
         if M::CAN_FAULT {
@@ -471,6 +502,39 @@ where
         }
         Ok(())
     }
+    /// True if the force of a bond depends on nothing but the bond: then forces come before the
+    /// test, which they may spare, and again at the nodes that lost a bond.
+    const FORCES_FIRST: bool = <M::NodeState as Record<T>>::LEN == 0 && !M::FOLLOWS_DAMAGE;
+
+    /// True if stretches are to be found for the test of bonds that the material does not look at
+    /// (a constant of its own, so that kernels nobody needs are not compiled).
+    const CAN_TRACK: bool = P::ACTIVE && !M::STRETCH;
+
+    /// Tests all bonds, breaks those that fail and follows the damage.
+    fn break_bonds(&mut self, events: &mut dyn BreakEvents<Self>) -> Result<Tally> {
+        events.before(self);
+        let mut tally = Tally::default();
+        if let Some(bits) = &mut self.bits {
+            tally = self.policy.check(Check {
+                family: &self.family,
+                material: &self.material,
+                table: &self.table,
+                bits,
+                u: &self.u,
+                node_const: &self.node_const,
+                node_state: &self.node_state,
+                constants: &self.criterion_const,
+                values: &mut self.criterion_value,
+            });
+        }
+        self.worst = self.worst.max(tally.worst);
+        if tally.broken > 0 {
+            tally.broken += self.follow_damage()?;
+            self.broken += tally.broken;
+            events.after(self, tally);
+        }
+        Ok(tally)
+    }
     /// Node constants and states of the nodes that lost a bond. Nodes that are detached by it lose
     /// their other bonds too; returns how many.
     fn follow_damage(&mut self) -> Result<usize> {
@@ -478,7 +542,10 @@ where
         let lost = if M::FOLLOWS_DAMAGE { self.follow_constants(&mut bits) } else { Ok(0) };
         self.bits = Some(bits);
         let lost = lost?;
-        self.update_states(Visit::Marked);
+        self.update_states::<false>(Visit::Marked);
+        if Self::FORCES_FIRST {
+            self.update_forces::<false>(Visit::Marked);
+        }
         if let Some(bits) = &mut self.bits {
             F::clear_marks(bits);
         }
@@ -790,9 +857,9 @@ where
         axpy(self.u.as_mut_slice(), T::of(dt), self.v.as_slice());
     }
     fn evaluate(&mut self) -> Result<()> {
-        self.update_states(Visit::All);
+        self.update_states::<false>(Visit::All);
         self.find_fault()?;
-        self.update_forces();
+        self.update_forces::<false>(Visit::All);
         Ok(())
     }
     fn evaluate_and_break(
@@ -800,32 +867,28 @@ where
         step: usize,
         events: &mut dyn BreakEvents<Self>,
     ) -> Result<Tally> {
-        self.update_states(Visit::All);
+        let test = P::ACTIVE && step.is_multiple_of(self.policy.every());
+        let per_t = if test { self.policy.per_square_strain() } else { None };
+        let track = per_t.is_some();
+        let mut t = self.update_states_and(track);
         self.find_fault()?;
+        if Self::FORCES_FIRST {
+            t = self.update_forces_and(track);
+        }
         let mut tally = Tally::default();
-        if P::ACTIVE && step.is_multiple_of(self.policy.every()) {
-            events.before(self);
-            if let Some(bits) = &mut self.bits {
-                tally = self.policy.check(Check {
-                    family: &self.family,
-                    material: &self.material,
-                    table: &self.table,
-                    bits,
-                    u: &self.u,
-                    node_const: &self.node_const,
-                    node_state: &self.node_state,
-                    constants: &self.criterion_const,
-                    values: &mut self.criterion_value,
-                });
-            }
-            self.worst = self.worst.max(tally.worst);
-            if tally.broken > 0 {
-                tally.broken += self.follow_damage()?;
-                self.broken += tally.broken;
-                events.after(self, tally);
+        if test {
+            // The largest index, if the sweep so far tells it.
+            let known = per_t.map(|per_t| t * per_t);
+            if let Some(worst) = known.filter(|worst| *worst <= T::one()) {
+                self.worst = self.worst.max(worst.to_f64());
+                tally.worst = worst.to_f64();
+            } else {
+                tally = self.break_bonds(events)?;
             }
         }
-        self.update_forces();
+        if !Self::FORCES_FIRST {
+            self.update_forces::<false>(Visit::All);
+        }
         Ok(tally)
     }
     fn can_break(&self) -> bool {

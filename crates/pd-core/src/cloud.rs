@@ -4,7 +4,7 @@
 //! (Zhao, dual horizon): f_i = Σ_{H_i} T_i V_j − Σ_{H'_i} T_j V_j. β V is 0 where a neighbour is
 //! in one of the two only.
 
-use crate::bond::{Bond, Member, Scale};
+use crate::bond::{Arithmetic, Bond, Member, Scale};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
 use crate::field::{Field, Inputs};
 use crate::points::Points;
@@ -12,24 +12,31 @@ use crate::quadrature::Quadrature;
 use crate::record::Record;
 use crate::search::neighbours;
 use crate::{Error, Real, Result};
+use multiversion::multiversion;
+use multiversion::target::target_cfg_f;
 use nalgebra::SVector;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
 /// Nodes that one task works on: fixed, so that nothing depends on the number of threads.
-const CHUNK: usize = 256;
+const CHUNK: usize = 1024;
 
 /// A neighbour within rounding of a whole number of units away is that number away, so that a
 /// lattice given as points has exactly the bonds of the lattice.
 const SNAP: f64 = 8.0 * f64::EPSILON;
 
-#[derive(Debug, Clone, Copy)]
-struct Entry<T, const D: usize> {
+/// What a bond is besides its nodes. Bonds of the same shape share one where there are few: in a
+/// cloud that is a lattice, or lattices of a few spacings, a bond costs six bytes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct BondShape<T, const D: usize> {
     xi: SVector<T, D>,
+    /// 1/|ξ|².
+    inverse_square: T,
     /// β_ij V_j and β_ji V_j: what weighs T_i and T_j in the force density of node i.
     volumes: [T; 2],
-    neighbour: u32,
+    /// Horizons of i and j.
+    horizons: [T; 2],
 }
 
 /// Families of a point cloud (see the module's head).
@@ -40,11 +47,17 @@ pub struct Cloud<T, const D: usize> {
     /// One entry, or one per node.
     horizons: Vec<f64>,
     quadrature: Quadrature,
+    /// Row i is `neighbour[start[i]..start[i + 1]]`, ascending.
     start: Vec<usize>,
-    entries: Vec<Entry<T, D>>,
+    neighbour: Vec<u32>,
+    /// The shape of every bond; empty if every bond has its own.
+    kind: Vec<u16>,
+    shapes: Vec<BondShape<T, D>>,
+    /// Nodes of one bond of each shape; empty if every bond has its own.
+    samples: Vec<[u32; 2]>,
 }
 
-/// Constants per directed bond: as the row's node sees it and, with one horizon per node, as its
+/// Constants per shape of a bond: as the row's node sees it and, with one horizon per node, as its
 /// neighbour does.
 #[derive(Debug, Clone)]
 pub struct RowTable<K> {
@@ -112,7 +125,10 @@ impl<T: Real, const D: usize> Cloud<T, D> {
             horizons,
             quadrature,
             start: Vec::new(),
-            entries: Vec::new(),
+            neighbour: Vec::new(),
+            kind: Vec::new(),
+            shapes: Vec::new(),
+            samples: Vec::new(),
         };
         let scaled: Vec<SVector<f64, D>> = (0..n).map(|i| points.position(i) / unit).collect();
         let rows = neighbours(&scaled, |i| {
@@ -124,33 +140,56 @@ impl<T: Real, const D: usize> Cloud<T, D> {
         let beta = |i: usize, j: usize, xi: &SVector<f64, D>| {
             cloud.quadrature.weight(xi, &cloud.cell(j), cloud.horizon(i))
         };
-        let lists: Vec<Vec<Entry<T, D>>> = (0..n)
+        let shape = |i: usize, j: usize| {
+            let xi = xi(i, j);
+            let volume = cloud.unit_volume(j);
+            BondShape {
+                xi: xi.map(T::of),
+                inverse_square: T::of(1.0 / xi.norm_squared()),
+                volumes: [beta(i, j, &xi) * volume, beta(j, i, &-xi) * volume].map(T::of),
+                horizons: [cloud.horizon(i), cloud.horizon(j)].map(T::of),
+            }
+        };
+        let chunks: Vec<Bundle<T, D>> = (0..n.div_ceil(CHUNK))
             .into_par_iter()
-            .map(|i| {
-                let mut row = Vec::new();
-                for &j in &rows.neighbour[rows.start[i]..rows.start[i + 1]] {
-                    let xi = xi(i, j as usize);
-                    let j = j as usize;
-                    let volume = cloud.unit_volume(j);
-                    let volumes = [beta(i, j, &xi) * volume, beta(j, i, &-xi) * volume];
-                    if volumes[0] > 0.0 || volumes[1] > 0.0 {
-                        let (xi, volumes) = (xi.map(T::of), volumes.map(T::of));
-                        row.push(Entry { xi, volumes, neighbour: j as u32 });
-                    }
+            .map(|chunk| {
+                let mut bundle = Bundle::default();
+                for i in chunk * CHUNK..n.min((chunk + 1) * CHUNK) {
+                    bundle.add_row(i, rows.row(i), |j| shape(i, j));
                 }
-                row
+                bundle
             })
             .collect();
+        drop(rows);
         let mut start = Vec::with_capacity(n + 1);
         start.push(0);
-        let mut total = 0;
-        for list in &lists {
-            total += list.len();
-            start.push(total);
+        let total = chunks.iter().map(|c| c.neighbour.len()).sum();
+        let (mut neighbour, mut kind) = (Vec::with_capacity(total), Vec::with_capacity(total));
+        let mut kinds = Kinds::default();
+        for chunk in &chunks {
+            let mut known = start.last().copied().unwrap_or(0);
+            for count in &chunk.counts {
+                known += *count as usize;
+                start.push(known);
+            }
+            neighbour.extend_from_slice(&chunk.neighbour);
+            let samples = chunk.kinds.shapes.iter().zip(&chunk.kinds.samples);
+            let global: Vec<u16> = samples.map(|(s, nodes)| kinds.find(s, *nodes)).collect();
+            kinds.full |= chunk.kinds.full;
+            if !kinds.full {
+                kind.extend(chunk.kind.iter().map(|&k| global[usize::from(k)]));
+            }
         }
-        cloud.entries = Vec::with_capacity(total);
-        lists.iter().for_each(|list| cloud.entries.extend_from_slice(list));
-        cloud.start = start;
+        if kinds.full {
+            // Too many shapes to share.
+            let row = |i: usize| neighbour[start[i]..start[i + 1]].par_iter().with_min_len(256);
+            let own = (0..n).into_par_iter().flat_map(|i| row(i).map(move |&j| (i, j as usize)));
+            let shapes = own.map(|(i, j)| shape(i, j)).collect();
+            (cloud.shapes, kind) = (shapes, Vec::new());
+        } else {
+            (cloud.shapes, cloud.samples) = (kinds.shapes, kinds.samples);
+        }
+        (cloud.start, cloud.neighbour, cloud.kind) = (start, neighbour, kind);
         Ok(cloud)
     }
 
@@ -172,11 +211,109 @@ impl<T: Real, const D: usize> Cloud<T, D> {
         let edge = if volume == 1.0 { 1.0 } else { volume.powf(1.0 / D as f64) };
         SVector::repeat(edge)
     }
-    fn row(&self, node: usize) -> &[Entry<T, D>] {
-        &self.entries[self.start[node]..self.start[node + 1]]
+    /// Neighbours of a node, ascending.
+    fn row(&self, node: usize) -> &[u32] {
+        &self.neighbour[self.start[node]..self.start[node + 1]]
     }
-    fn xi64(entry: &Entry<T, D>) -> SVector<f64, D> {
-        entry.xi.map(Real::to_f64)
+    /// Where the shape of bond `at` is.
+    #[inline(always)]
+    fn shape(&self, at: usize) -> usize {
+        if self.kind.is_empty() { at } else { usize::from(self.kind[at]) }
+    }
+    /// Neighbours and shapes of the bonds of a node, with their places.
+    fn bonds_of(&self, node: usize) -> impl Iterator<Item = (usize, usize, &BondShape<T, D>)> {
+        (self.start[node]..self.start[node + 1])
+            .map(|at| (at, self.neighbour[at] as usize, &self.shapes[self.shape(at)]))
+    }
+}
+
+impl<T: Real, const D: usize> BondShape<T, D> {
+    fn xi64(&self) -> SVector<f64, D> {
+        self.xi.map(Real::to_f64)
+    }
+}
+
+/// Distinct shapes of bonds, in the order they were met.
+struct Kinds<T, const D: usize> {
+    shapes: Vec<BondShape<T, D>>,
+    samples: Vec<[u32; 2]>,
+    /// Places of shapes by their hash; the rest of the search is in `shapes` itself.
+    slots: Vec<u16>,
+    /// There are more than can be told apart.
+    full: bool,
+}
+
+/// More shapes than this are not shared.
+const MOST_KINDS: usize = 1 << 14;
+
+impl<T: Real, const D: usize> Default for Kinds<T, D> {
+    fn default() -> Self {
+        let slots = vec![u16::MAX; 4 * MOST_KINDS];
+        Self { shapes: Vec::new(), samples: Vec::new(), slots, full: false }
+    }
+}
+
+impl<T: Real, const D: usize> Kinds<T, D> {
+    /// The number of a shape, a new one if it was not met before (open addressing).
+    fn find(&mut self, shape: &BondShape<T, D>, nodes: [u32; 2]) -> u16 {
+        let mut hash = 0_u64;
+        let numbers = shape.xi.iter().chain(&shape.volumes).chain(&shape.horizons);
+        for number in numbers {
+            let bits = number.to_f64().to_bits();
+            hash = (hash.rotate_left(5) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        }
+        let mut slot = (hash >> 40) as usize % self.slots.len();
+        while self.slots[slot] != u16::MAX {
+            let kind = self.slots[slot];
+            if self.shapes[usize::from(kind)] == *shape {
+                return kind;
+            }
+            slot = (slot + 1) % self.slots.len();
+        }
+        if self.shapes.len() == MOST_KINDS {
+            self.full = true;
+            return 0;
+        }
+        let kind = self.shapes.len() as u16;
+        self.slots[slot] = kind;
+        self.shapes.push(*shape);
+        self.samples.push(nodes);
+        kind
+    }
+}
+
+/// Rows of some consecutive nodes, before they are put together.
+struct Bundle<T, const D: usize> {
+    counts: Vec<u32>,
+    neighbour: Vec<u32>,
+    kind: Vec<u16>,
+    kinds: Kinds<T, D>,
+}
+
+impl<T: Real, const D: usize> Default for Bundle<T, D> {
+    fn default() -> Self {
+        Self {
+            counts: Vec::new(),
+            neighbour: Vec::new(),
+            kind: Vec::new(),
+            kinds: Kinds::default(),
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Bundle<T, D> {
+    fn add_row(&mut self, node: usize, row: &[u32], shape: impl Fn(usize) -> BondShape<T, D>) {
+        let before = self.neighbour.len();
+        for &j in row {
+            let shape = shape(j as usize);
+            if shape.volumes.iter().any(|v| *v > T::zero()) {
+                self.neighbour.push(j);
+                if !self.kinds.full {
+                    self.kind.push(self.kinds.find(&shape, [node as u32, j]));
+                }
+            }
+        }
+        self.counts.push((self.neighbour.len() - before) as u32);
     }
 }
 
@@ -195,51 +332,107 @@ where
     own: J,
 }
 
-fn sweep_range<T, const D: usize, Kn, I, J>(
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+    "x86_64+avx2+fma"
+))]
+fn sweep_chunk<T, const D: usize, Kn, I, J>(
     job: &Job<'_, T, D, Kn, I, J>,
     nodes: Range<usize>,
     mut out: <Kn::Out as Record<T>>::PlanesMut<'_>,
-) where
+) -> T
+where
     T: Real,
     Kn: BondKernel<T, D>,
     I: Inputs<T, Value = Kn::Node>,
     J: Inputs<T, Value = Kn::Own>,
 {
-    if nodes.len() > CHUNK {
-        let mid = nodes.len() / 2;
-        let (low, high) = <Kn::Out as Record<T>>::split(out, mid);
-        let (a, b) = (nodes.start..nodes.start + mid, nodes.start + mid..nodes.end);
-        rayon::join(|| sweep_range(job, a, low), || sweep_range(job, b, high));
-        return;
-    }
+    let fused = cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma");
+    let limit = T::of(Bond::<T, D>::SMALL);
     let first = nodes.start;
+    let mut largest = T::zero();
     for node in nodes {
         if job.marked && job.bits.is_some_and(|b| b.marks[node].load(Relaxed) == 0) {
             continue;
         }
-        let own = job.input.load(node);
-        let u = job.u.get(node);
+        // Taken for small bonds first, like the blocks of a lattice.
+        let small = Arithmetic { small: Kn::STRETCH, fused };
+        let (mut sum, low, mut high) = job.fold(node, small);
+        if Kn::STRETCH && !(low >= -limit && high <= limit) {
+            (sum, _, high) = job.fold(node, Arithmetic { small: false, fused });
+        }
+        largest = if high > largest { high } else { largest };
+        let previous = <Kn::Out as Record<T>>::read(&out, node - first);
+        let (own, constants) = (job.input.load(node), job.own.load(node));
+        job.kernel.close(&sum, &own, &constants, previous).write(&mut out, node - first);
+    }
+    largest
+}
+
+impl<T, const D: usize, Kn, I, J> Job<'_, T, D, Kn, I, J>
+where
+    T: Real,
+    Kn: BondKernel<T, D>,
+    I: Inputs<T, Value = Kn::Node>,
+    J: Inputs<T, Value = Kn::Own>,
+{
+    /// The sum of a node's bonds, with the range of t.
+    #[inline(always)]
+    fn fold(&self, node: usize, arithmetic: Arithmetic) -> (Kn::Sum, T, T) {
+        let own = self.input.load(node);
+        let u = self.u.get(node);
         let mut sum = <Kn::Sum as Record<T>>::zero();
-        let begin = job.cloud.start[node];
-        for (at, entry) in job.cloud.row(node).iter().enumerate() {
-            if job.bits.is_some_and(|bits| !bits.intact(node, at)) {
+        let (mut low, mut high) = (T::zero(), T::zero());
+        let begin = self.cloud.start[node];
+        for (at, &j) in self.cloud.row(node).iter().enumerate() {
+            if self.bits.is_some_and(|bits| !bits.intact(node, at)) {
                 continue;
             }
-            let j = entry.neighbour as usize;
-            let bond = Bond { xi: entry.xi, eta: job.u.get(j) - u };
-            let pair = Pair { constants: job.table.ends(begin + at), volumes: entry.volumes };
-            job.kernel.add(&mut sum, &bond, pair, [&own, &job.input.load(j)]);
+            let place = self.cloud.shape(begin + at);
+            let shape = &self.cloud.shapes[place];
+            // A block of one node: no bounds to check for each of its planes.
+            let far = self.u.block::<1>(j as usize);
+            let eta = SVector::from_fn(|d, _| far.plane(d)[0]) - u;
+            let other = I::lane::<1>(&self.input.block::<1>(j as usize), 0);
+            let bond = Bond::of_kernel(shape.xi, eta, shape.inverse_square, arithmetic);
+            let pair = Pair { constants: self.table.ends(place), volumes: shape.volumes };
+            self.kernel.add(&mut sum, &bond, pair, [&own, &other]);
+            if Kn::TRACK {
+                let t = bond.square_strain();
+                high = if t > high { t } else { high };
+                low = if t < low { t } else { low };
+            }
         }
-        let previous = <Kn::Out as Record<T>>::read(&out, node - first);
-        job.kernel.close(&sum, &own, &job.own.load(node), previous).write(&mut out, node - first);
+        (sum, low, high)
     }
+}
+
+fn sweep_range<T, const D: usize, Kn, I, J>(
+    job: &Job<'_, T, D, Kn, I, J>,
+    nodes: Range<usize>,
+    out: <Kn::Out as Record<T>>::PlanesMut<'_>,
+) -> T
+where
+    T: Real,
+    Kn: BondKernel<T, D>,
+    I: Inputs<T, Value = Kn::Node>,
+    J: Inputs<T, Value = Kn::Own>,
+{
+    if nodes.len() <= CHUNK {
+        return sweep_chunk(job, nodes, out);
+    }
+    let mid = nodes.len() / 2;
+    let (low, high) = <Kn::Out as Record<T>>::split(out, mid);
+    let (a, b) = (nodes.start..nodes.start + mid, nodes.start + mid..nodes.end);
+    let (a, b) = rayon::join(|| sweep_range(job, a, low), || sweep_range(job, b, high));
+    if b > a { b } else { a }
 }
 
 impl<K> RowTable<K> {
     #[inline(always)]
-    fn ends(&self, at: usize) -> [&K; 2] {
-        let own = &self.own[at];
-        [own, self.mate.as_ref().map_or(own, |mate| &mate[at])]
+    fn ends(&self, shape: usize) -> [&K; 2] {
+        let own = &self.own[shape];
+        [own, self.mate.as_ref().map_or(own, |mate| &mate[shape])]
     }
 }
 
@@ -269,12 +462,15 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         self.unit
     }
     fn bonds(&self) -> usize {
-        self.entries.len() / 2
+        self.neighbour.len() / 2
     }
     fn bytes(&self) -> usize {
         self.points.bytes()
             + self.start.capacity() * size_of::<usize>()
-            + self.entries.capacity() * size_of::<Entry<T, D>>()
+            + self.neighbour.capacity() * size_of::<u32>()
+            + self.kind.capacity() * size_of::<u16>()
+            + self.shapes.capacity() * size_of::<BondShape<T, D>>()
+            + self.samples.capacity() * size_of::<[u32; 2]>()
             + self.horizons.capacity() * size_of::<f64>()
     }
 
@@ -284,17 +480,19 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     ) -> RowTable<K> {
         // An end whose horizon the bond exceeds carries no volume; it takes the other end's
         // constants so that no influence function is asked beyond its support.
+        let of = |shape: &BondShape<T, D>, nodes: [usize; 2], end: usize| {
+            let seen = if shape.volumes[end] > T::zero() { end } else { 1 - end };
+            constant(&shape.xi64(), self.scale(nodes[seen]))
+        };
         let table = |end: usize| -> Vec<K> {
-            (0..self.nodes())
-                .into_par_iter()
-                .flat_map_iter(|node| {
-                    self.row(node).iter().map(move |entry| {
-                        let ends = [node, entry.neighbour as usize];
-                        let seen = if entry.volumes[end] > T::zero() { end } else { 1 - end };
-                        constant(&Self::xi64(entry), self.scale(ends[seen]))
-                    })
-                })
-                .collect()
+            if self.kind.is_empty() {
+                let rows = (0..self.nodes()).into_par_iter();
+                let bonds = |i| self.bonds_of(i).map(move |(_, j, shape)| of(shape, [i, j], end));
+                rows.flat_map_iter(bonds).collect()
+            } else {
+                let shapes = self.shapes.iter().zip(&self.samples);
+                shapes.map(|(shape, nodes)| of(shape, nodes.map(|n| n as usize), end)).collect()
+            }
         };
         RowTable { own: table(0), mate: (self.horizons.len() > 1).then(|| table(1)) }
     }
@@ -319,8 +517,8 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     fn cut(&self, bits: &mut CloudBits, cuts: &(dyn Fn(usize, usize) -> bool + Sync)) -> usize {
         let mut count = 0;
         for node in 0..self.nodes() {
-            for (at, entry) in self.row(node).iter().enumerate() {
-                let other = entry.neighbour as usize;
+            for (at, &other) in self.row(node).iter().enumerate() {
+                let other = other as usize;
                 if bits.intact(node, at) && cuts(node.min(other), node.max(other)) {
                     bits.lose(node, at);
                     count += usize::from(node < other);
@@ -331,9 +529,9 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     }
     fn isolate(&self, bits: &mut CloudBits, node: usize) -> usize {
         let mut count = 0;
-        for (at, entry) in self.row(node).iter().enumerate() {
-            let other = entry.neighbour as usize;
-            let back = self.row(other).binary_search_by_key(&(node as u32), |e| e.neighbour);
+        for (at, &other) in self.row(node).iter().enumerate() {
+            let other = other as usize;
+            let back = self.row(other).binary_search(&(node as u32));
             if bits.intact(node, at) {
                 count += 1;
                 bits.lose(node, at);
@@ -356,12 +554,12 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         bits: Option<&CloudBits>,
         visit: &mut dyn FnMut(Neighbour<D>),
     ) {
-        for (at, entry) in self.row(node).iter().enumerate() {
+        for (at, other, shape) in self.bonds_of(node) {
             visit(Neighbour {
-                node: entry.neighbour as usize,
-                xi: Self::xi64(entry),
-                volume: entry.volumes[0].to_f64(),
-                intact: bits.is_none_or(|bits| bits.intact(node, at)),
+                node: other,
+                xi: shape.xi64(),
+                volume: shape.volumes[0].to_f64(),
+                intact: bits.is_none_or(|bits| bits.intact(node, at - self.start[node])),
             });
         }
     }
@@ -373,12 +571,11 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         into: &mut Vec<Member<K, D>>,
     ) {
         into.clear();
-        let own = &table.own[self.start[node]..self.start[node + 1]];
-        for (at, (entry, &bond)) in self.row(node).iter().zip(own).enumerate() {
-            let intact = bits.is_none_or(|bits| bits.intact(node, at));
-            if intact && entry.volumes[0] > T::zero() {
-                let volume = entry.volumes[0].to_f64();
-                into.push(Member { xi: Self::xi64(entry), volume, bond });
+        for (at, _, shape) in self.bonds_of(node) {
+            let intact = bits.is_none_or(|bits| bits.intact(node, at - self.start[node]));
+            if intact && shape.volumes[0] > T::zero() {
+                let volume = shape.volumes[0].to_f64();
+                into.push(Member { xi: shape.xi64(), volume, bond: table.own[self.shape(at)] });
             }
         }
     }
@@ -392,14 +589,15 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         u: &Field<T, SVector<T, D>>,
         (input, own): (I, J),
         out: &mut Field<T, Kn::Out>,
-    ) where
+    ) -> T
+    where
         Kn: BondKernel<T, D>,
         I: Inputs<T, Value = Kn::Node>,
         J: Inputs<T, Value = Kn::Own>,
     {
         let marked = visit == Visit::Marked;
         let job = Job { cloud: self, kernel, table, bits, marked, u, input, own };
-        sweep_range(&job, 0..self.nodes(), out.planes_mut());
+        sweep_range(&job, 0..self.nodes(), out.planes_mut())
     }
 
     fn break_bonds<B, I>(
@@ -416,20 +614,22 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     {
         // Both rows of a bond evaluate it from its lower to its higher node: the same numbers,
         // so the same verdict, and every task writes its own rows only.
+        let arithmetic = Arithmetic { small: false, fused: fuses() };
         let one_node = |node: usize, bytes: &mut [u8], mark: &mut AtomicU8| {
             let mut tally = Tally::default();
             let own = (input.load(node), u.get(node));
             let begin = self.start[node];
-            for (at, entry) in self.row(node).iter().enumerate() {
+            for (at, j, shape) in self.bonds_of(node) {
+                let (at, place) = (at - begin, self.shape(at));
                 let byte = &mut bytes[at / 8];
                 if *byte >> (at % 8) & 1 == 0 {
                     continue;
                 }
-                let j = entry.neighbour as usize;
                 let other = (input.load(j), u.get(j));
-                let constants = table.ends(begin + at);
-                let bond = Bond { xi: entry.xi, eta: other.1 - own.1 };
-                let seen = entry.volumes.map(|v| if v > T::zero() { T::one() } else { T::zero() });
+                let constants = table.ends(place);
+                let eta = other.1 - own.1;
+                let bond = Bond::of_kernel(shape.xi, eta, shape.inverse_square, arithmetic);
+                let seen = shape.volumes.map(|v| if v > T::zero() { T::one() } else { T::zero() });
                 let index = if node < j {
                     let pair = Pair { constants, volumes: seen };
                     test.index(&bond, pair, [&own.0, &other.0])
@@ -450,6 +650,14 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         let CloudBits { bytes, row, marks } = bits;
         break_range(&one_node, 0, row, bytes, marks)
     }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+    "x86_64+avx2+fma"
+))]
+fn fuses() -> bool {
+    cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma")
 }
 
 /// Halves the rows until they are one chunk; their bytes and marks are split along.

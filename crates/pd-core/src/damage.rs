@@ -131,6 +131,13 @@ pub trait DamageCriterion<T: Real, const D: usize, M: Material<T, D>>: Send + Sy
     /// Failure index of a bond: value / critical value.
     fn index(&self, bond: &TestedBond<'_, T, D, M, Self::NodeConst, Self::NodeValue>) -> T;
 
+    /// Some(a) if the index of every bond is a t, with t the [`Bond::square_strain`]: then the
+    /// largest t of a step, which the forces of many materials need anyway, tells that no bond
+    /// fails.
+    fn per_square_strain(&self) -> Option<T> {
+        None
+    }
+
     /// Refuses parameters that do not fit a body of `nodes` nodes.
     ///
     /// # Errors
@@ -183,6 +190,10 @@ pub trait DamagePolicy<T: Real, const D: usize, M: Material<T, D>>: Send + Sync 
     fn validate(&self, nodes: usize) -> Result<()> {
         let _ = nodes;
         Ok(())
+    }
+    /// See [`DamageCriterion::per_square_strain`].
+    fn per_square_strain(&self) -> Option<T> {
+        None
     }
     /// Tests all bonds and breaks those that fail.
     fn check<F: Family<T, D>>(
@@ -351,6 +362,9 @@ where
     }
     fn validate(&self, nodes: usize) -> Result<()> {
         self.criterion.validate(nodes)
+    }
+    fn per_square_strain(&self) -> Option<T> {
+        self.criterion.per_square_strain()
     }
     fn check<F: Family<T, D>>(
         &self,

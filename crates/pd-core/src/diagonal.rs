@@ -25,6 +25,8 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for AloneState
     type Own = M::FamilyConst;
     type Sum = M::FamilySum;
     type Out = M::NodeState;
+    // The displacement is the probe's, not the body's: nothing is known of its size.
+    const STRETCH: bool = false;
 
     #[inline(always)]
     fn add(
@@ -36,7 +38,7 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for AloneState
     ) {
         let [bond_const, _] = pair.constants;
         let end = End { bond: bond_const, node: nodes[0], state: &(), volume: pair.volumes[0] };
-        self.material.add_bond(sum, &Bond { xi: bond.xi, eta: -self.a }, end);
+        self.material.add_bond(sum, &Bond::new(bond.xi, -self.a), end);
     }
     #[inline(always)]
     fn close(
@@ -63,6 +65,7 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for AloneForce
     type Own = ();
     type Sum = SVector<T, D>;
     type Out = SVector<T, D>;
+    const STRETCH: bool = false;
 
     #[inline(always)]
     fn add(
@@ -74,7 +77,7 @@ impl<T: Real, const D: usize, M: Material<T, D>> BondKernel<T, D> for AloneForce
     ) {
         let [(((c0, _), state0), volume0), (((c1, f1), _), volume1)] = nodes;
         let ([k0, k1], [v0, v1]) = (pair.constants, pair.volumes);
-        let bond = Bond { xi: bond.xi, eta: -self.a };
+        let bond = Bond::new(bond.xi, -self.a);
         let mut back = M::FamilySum::zero();
         // Forces are weighed with the volume of the other node, strains with that of this one.
         let seen = End { bond: k1, node: c1, state: &(), volume: v1 * *volume0 / *volume1 };

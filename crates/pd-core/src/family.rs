@@ -32,6 +32,10 @@ pub trait BondKernel<T: Real, const D: usize>: Sync {
     type Sum: Record<T>;
     /// The result of one node.
     type Out: Record<T>;
+    /// True if something depends on the stretch of a bond.
+    const STRETCH: bool;
+    /// True if the sweep is to find the largest t.
+    const TRACK: bool = Self::STRETCH;
     /// Adds one bond.
     fn add(
         &self,
@@ -171,7 +175,9 @@ pub trait Family<T: Real, const D: usize>: Send + Sync + Sized {
     );
 
     /// Runs `kernel` over the families of all nodes. Each node's bonds are added in ascending
-    /// order of the neighbour, whatever the number of threads.
+    /// order of the neighbour, whatever the number of threads. Where the kernel asks for it
+    /// ([`BondKernel::TRACK`]), returns the largest t met at a visited node
+    /// ([`Bond::square_strain`]; 0 if all are smaller).
     #[allow(clippy::too_many_arguments)]
     fn sweep<Kn, I, J>(
         &self,
@@ -182,7 +188,8 @@ pub trait Family<T: Real, const D: usize>: Send + Sync + Sized {
         u: &Field<T, SVector<T, D>>,
         input: (I, J),
         out: &mut Field<T, Kn::Out>,
-    ) where
+    ) -> T
+    where
         Kn: BondKernel<T, D>,
         I: Inputs<T, Value = Kn::Node>,
         J: Inputs<T, Value = Kn::Own>;

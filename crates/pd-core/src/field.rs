@@ -8,7 +8,7 @@
 #![allow(unsafe_code)]
 
 use crate::Real;
-use crate::record::{LANES, Record};
+use crate::record::Record;
 use std::marker::PhantomData;
 
 /// A node array of records: one plane of numbers per scalar of `R`, one after the other.
@@ -61,29 +61,29 @@ impl<T: Real, R: Record<T>> Field<T, R> {
     }
 }
 
-/// [`LANES`] consecutive nodes of the planes of a field. Made by [`Inputs::block`] only.
+/// N consecutive nodes of the planes of a field. Made by [`Inputs::block`] only.
 #[derive(Debug, Clone, Copy)]
-pub struct Planes<'a, T> {
+pub struct Planes<'a, T, const N: usize> {
     /// `count` planes of `stride` numbers.
     data: &'a [T],
     stride: usize,
-    /// At most `stride − LANES`.
+    /// At most `stride − N`.
     start: usize,
     count: usize,
 }
 
-impl<'a, T> Planes<'a, T> {
+impl<'a, T, const N: usize> Planes<'a, T, N> {
     /// The nodes of plane `plane`, or of the last one if there is no such plane.
     ///
     /// # Panics
     /// If there are no planes.
     #[inline(always)]
-    pub fn plane(&self, plane: usize) -> &'a [T; LANES] {
+    pub fn plane(&self, plane: usize) -> &'a [T; N] {
         assert!(self.count > 0);
         let at = plane.min(self.count - 1) * self.stride + self.start;
-        // SAFETY: start + LANES ≤ stride, so at + LANES ≤ (count − 1)·stride + stride = data.len(),
-        // and nothing overflows as data.len() does not. An array of T has the alignment of T.
-        unsafe { &*self.data.as_ptr().add(at).cast::<[T; LANES]>() }
+        // SAFETY: start + N ≤ stride, so at + N ≤ (count − 1)·stride + stride = data.len(), and
+        // nothing overflows as data.len() does not. An array of T has the alignment of T.
+        unsafe { &*self.data.as_ptr().add(at).cast::<[T; N]>() }
     }
 }
 
@@ -91,31 +91,27 @@ impl<'a, T> Planes<'a, T> {
 pub trait Inputs<T: Real>: Copy + Send + Sync {
     /// The value at one node.
     type Value: Copy;
-    /// [`LANES`] consecutive nodes.
-    type Block: Copy;
-    /// The nodes `start .. start + LANES`.
-    fn block(&self, start: usize) -> Self::Block;
+    /// N consecutive nodes.
+    type Block<const N: usize>: Copy;
+    /// The nodes `start .. start + N`.
+    fn block<const N: usize>(&self, start: usize) -> Self::Block<N>;
     /// Node `lane` of a block.
-    fn lane(block: &Self::Block, lane: usize) -> Self::Value;
+    fn lane<const N: usize>(block: &Self::Block<N>, lane: usize) -> Self::Value;
     /// Node `i`.
     fn load(&self, i: usize) -> Self::Value;
 }
 
 impl<'a, T: Real, R: Record<T>> Inputs<T> for &'a Field<T, R> {
     type Value = R;
-    type Block = Planes<'a, T>;
+    type Block<const N: usize> = Planes<'a, T, N>;
     #[inline(always)]
-    fn block(&self, start: usize) -> Planes<'a, T> {
-        assert!(self.stride >= LANES);
-        Planes {
-            data: &self.data,
-            stride: self.stride,
-            start: start.min(self.stride - LANES),
-            count: R::LEN,
-        }
+    fn block<const N: usize>(&self, start: usize) -> Planes<'a, T, N> {
+        assert!(self.stride >= N);
+        let start = start.min(self.stride - N);
+        Planes { data: &self.data, stride: self.stride, start, count: R::LEN }
     }
     #[inline(always)]
-    fn lane(block: &Planes<'a, T>, lane: usize) -> R {
+    fn lane<const N: usize>(block: &Planes<'a, T, N>, lane: usize) -> R {
         R::lane(block, 0, lane)
     }
     #[inline(always)]
@@ -126,25 +122,25 @@ impl<'a, T: Real, R: Record<T>> Inputs<T> for &'a Field<T, R> {
 
 impl<T: Real> Inputs<T> for () {
     type Value = ();
-    type Block = ();
+    type Block<const N: usize> = ();
     #[inline(always)]
-    fn block(&self, _: usize) {}
+    fn block<const N: usize>(&self, _: usize) {}
     #[inline(always)]
-    fn lane((): &(), _: usize) {}
+    fn lane<const N: usize>((): &(), _: usize) {}
     #[inline(always)]
     fn load(&self, _: usize) {}
 }
 
 impl<T: Real, A: Inputs<T>, B: Inputs<T>> Inputs<T> for (A, B) {
     type Value = (A::Value, B::Value);
-    type Block = (A::Block, B::Block);
+    type Block<const N: usize> = (A::Block<N>, B::Block<N>);
     #[inline(always)]
-    fn block(&self, start: usize) -> Self::Block {
-        (self.0.block(start), self.1.block(start))
+    fn block<const N: usize>(&self, start: usize) -> Self::Block<N> {
+        (self.0.block::<N>(start), self.1.block::<N>(start))
     }
     #[inline(always)]
-    fn lane(block: &Self::Block, lane: usize) -> Self::Value {
-        (A::lane(&block.0, lane), B::lane(&block.1, lane))
+    fn lane<const N: usize>(block: &Self::Block<N>, lane: usize) -> Self::Value {
+        (A::lane::<N>(&block.0, lane), B::lane::<N>(&block.1, lane))
     }
     #[inline(always)]
     fn load(&self, i: usize) -> Self::Value {

@@ -1,11 +1,13 @@
 //! Families on a uniform lattice: one table of offsets serves every node.
 //!
 //! Sites lie in rows along x, padded so that every offset of every node stays inside the arrays.
-//! The loop takes [`LANES`] consecutive sites at a time and runs through the offsets inside, so
-//! that scalar material code becomes vector code. Where a neighbour is missing (padding, holes,
-//! outlines, broken bonds) its lane is masked; blocks with nothing missing skip the masks.
+//! The loop takes a register of consecutive sites at a time ([`Real::WIDTH`]) and runs through the
+//! offsets inside, so that scalar material code becomes vector code. Where a neighbour is missing
+//! (padding, holes, outlines, broken bonds) its lane is masked; blocks with nothing missing skip
+//! the masks. A block first takes every bond for a small one ([`Bond::SMALL`]) and is summed again
+//! if it met one that is not.
 
-use crate::bond::{Bond, Member, Scale};
+use crate::bond::{Arithmetic, Bond, Member, Scale};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
 use crate::field::{Field, Inputs, Planes};
 use crate::grid::Grid;
@@ -13,6 +15,7 @@ use crate::quadrature::Quadrature;
 use crate::record::{LANES, Record};
 use crate::{Error, Real, Result};
 use multiversion::multiversion;
+use multiversion::target::target_cfg_f;
 use nalgebra::SVector;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -28,6 +31,8 @@ struct Offset<T, const D: usize> {
     site: isize,
     cell: [isize; D],
     xi: SVector<T, D>,
+    /// 1/|ξ|².
+    inverse_square: T,
     xi64: SVector<f64, D>,
     /// β V in Δx^D.
     volume: T,
@@ -83,12 +88,13 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         let mut strides = [1; D];
         for d in 1..D {
             let row = strides[d - 1] * (cells[d - 1] + reaches[d - 1]);
-            strides[d] = if d == 1 { row.next_multiple_of(LANES) } else { row };
+            strides[d] = if d == 1 { row.next_multiple_of(T::WIDTH) } else { row };
         }
         let margin: usize =
-            (0..D).map(|d| strides[d] * reaches[d]).sum::<usize>().next_multiple_of(LANES) + LANES;
+            (0..D).map(|d| strides[d] * reaches[d]).sum::<usize>().next_multiple_of(T::WIDTH)
+                + T::WIDTH;
         let inner: usize = (0..D).map(|d| strides[d] * (cells[d] - 1)).sum::<usize>() + 1;
-        let sites = inner.next_multiple_of(LANES) + 2 * margin;
+        let sites = inner.next_multiple_of(T::WIDTH) + 2 * margin;
         Error::check(
             sites < u32::MAX as usize,
             "number of lattice sites",
@@ -116,6 +122,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
                     site: (0..D).map(|d| step[d] * strides[d] as isize).sum(),
                     cell: step,
                     xi: xi64.map(T::of),
+                    inverse_square: T::of(1.0 / xi64.norm_squared()),
                     xi64,
                     volume: T::of(volume64),
                     volume64,
@@ -275,22 +282,25 @@ where
 }
 
 #[inline(always)]
-fn relative<T: Real, const D: usize>(
-    near: &Planes<'_, T>,
-    far: &Planes<'_, T>,
+fn relative<T: Real, const D: usize, const N: usize>(
+    near: &Planes<'_, T, N>,
+    far: &Planes<'_, T, N>,
     lane: usize,
 ) -> SVector<T, D> {
     SVector::from_fn(|d, _| far.plane(d)[lane] - near.plane(d)[lane])
 }
 
-/// Adds the bonds along one offset of a block of nodes; a lane of volume 0 adds nothing.
+/// Adds the bonds along one offset of a block of nodes, where `there` holds if MASKED.
 #[inline(always)]
-fn add_lanes<'a, T, const D: usize, Kn, I, J>(
+fn add_lanes<'a, T, const D: usize, Kn, I, J, const N: usize, const MASKED: bool>(
     job: &Job<'a, T, D, Kn, I, J>,
-    sums: &mut <Kn::Sum as Record<T>>::Lanes,
-    (offset, k, volumes): (&Offset<T, D>, &Kn::Const, [T; LANES]),
+    sums: &mut <Kn::Sum as Record<T>>::Lanes<N>,
+    (low, high): (&mut [T; N], &mut [T; N]),
+    (offset, k): (&Offset<T, D>, &Kn::Const),
+    there: u32,
     start: usize,
-    (near, own): (&Planes<'a, T>, &I::Block),
+    (near, own): (&Planes<'a, T, N>, &I::Block<N>),
+    arithmetic: Arithmetic,
 ) where
     T: Real,
     Kn: BondKernel<T, D>,
@@ -298,129 +308,232 @@ fn add_lanes<'a, T, const D: usize, Kn, I, J>(
     J: Inputs<T, Value = Kn::Own>,
 {
     let beyond = start.wrapping_add_signed(offset.site);
-    let far = job.u.block(beyond);
-    let other = job.input.block(beyond);
-    for l in 0..LANES {
-        let pair = Pair { constants: [k, k], volumes: [volumes[l]; 2] };
-        let bond = Bond { xi: offset.xi, eta: relative(near, &far, l) };
-        let nodes = [I::lane(own, l), I::lane(&other, l)];
-        let mut sum = <Kn::Sum as Record<T>>::get(sums, l);
+    let far: Planes<'_, T, N> = job.u.block(beyond);
+    let other = job.input.block::<N>(beyond);
+    let pair = Pair { constants: [k, k], volumes: [offset.volume; 2] };
+    for l in 0..N {
+        let on = !MASKED || there >> l & 1 == 1;
+        let eta = relative(near, &far, l);
+        let bond = Bond::of_kernel(offset.xi, eta, offset.inverse_square, arithmetic);
+        let nodes = [I::lane::<N>(own, l), I::lane::<N>(&other, l)];
+        let old = <Kn::Sum as Record<T>>::get::<N>(sums, l);
+        let mut sum = old;
         job.kernel.add(&mut sum, &bond, pair, [&nodes[0], &nodes[1]]);
-        sum.put(sums, l);
+        <Kn::Sum as Record<T>>::select(on, sum, old).put::<N>(sums, l);
+        if Kn::TRACK {
+            let t = bond.square_strain();
+            high[l] = if on & (t > high[l]) { t } else { high[l] };
+            low[l] = if on & (t < low[l]) { t } else { low[l] };
+        }
     }
 }
 
-/// The sum of lane `l` of a block from the bonds that are there, none of the others touched.
-#[cold]
-#[inline(never)]
-fn add_one_by_one<T, const D: usize, Kn, I, J>(
+/// Adds all bonds of a block of N nodes to zero sums.
+#[inline(always)]
+fn fold<'a, T, const D: usize, Kn, I, J, const N: usize>(
+    job: &Job<'a, T, D, Kn, I, J>,
+    sums: &mut <Kn::Sum as Record<T>>::Lanes<N>,
+    (low, high): (&mut [T; N], &mut [T; N]),
+    (start, full): (usize, bool),
+    (near, own): (&Planes<'a, T, N>, &I::Block<N>),
+    arithmetic: Arithmetic,
+) where
+    T: Real,
+    Kn: BondKernel<T, D>,
+    I: Inputs<T, Value = Kn::Node>,
+    J: Inputs<T, Value = Kn::Own>,
+{
+    *sums = <Kn::Sum as Record<T>>::lanes::<N>();
+    (*low, *high) = ([T::zero(); N], [T::zero(); N]);
+    let offsets = job.lattice.offsets.iter().zip(job.table);
+    if full {
+        for entry in offsets {
+            add_lanes::<T, D, Kn, I, J, N, false>(
+                job,
+                sums,
+                (low, high),
+                entry,
+                0,
+                start,
+                (near, own),
+                arithmetic,
+            );
+        }
+    } else {
+        for (o, entry) in offsets.enumerate() {
+            let there = job.there::<N>(start, o);
+            if there != 0 {
+                add_lanes::<T, D, Kn, I, J, N, true>(
+                    job,
+                    sums,
+                    (low, high),
+                    entry,
+                    there,
+                    start,
+                    (near, own),
+                    arithmetic,
+                );
+            }
+        }
+    }
+}
+
+impl<T: Real, const D: usize, Kn: BondKernel<T, D>, I, J> Job<'_, T, D, Kn, I, J> {
+    /// Which of the N nodes from `start` on have an intact neighbour along an offset.
+    #[inline(always)]
+    fn there<const N: usize>(&self, start: usize, offset: usize) -> u32 {
+        let mut there = 0;
+        for part in 0..N / LANES {
+            let block = start / LANES + part;
+            let byte = match self.bits {
+                Some(bits) => self.lattice.intact_byte(bits, block, offset),
+                None => self.lattice.present[block] & self.lattice.present_byte(block, offset),
+            };
+            there |= u32::from(byte) << (part * LANES);
+        }
+        there
+    }
+    /// Whether all neighbours of the N nodes from `start` on are there and intact.
+    #[inline(always)]
+    fn full<const N: usize>(&self, start: usize) -> bool {
+        (start / LANES..(start + N) / LANES).all(|block| match self.bits {
+            Some(bits) => bits.full[block].load(Relaxed) == 1,
+            None => self.lattice.interior[block],
+        })
+    }
+    /// The nodes among the N sites from `start` on, none if they are not to be visited.
+    #[inline(always)]
+    fn visited<const N: usize>(&self, start: usize) -> u32 {
+        let blocks = start / LANES..(start + N) / LANES;
+        if let (true, Some(bits)) = (self.marked, self.bits)
+            && blocks.clone().all(|block| bits.marks[block].load(Relaxed) == 0)
+        {
+            return 0;
+        }
+        blocks.rev().fold(0, |mask, b| mask << LANES | u32::from(self.lattice.present[b]))
+    }
+}
+
+/// The blocks of N nodes of a chunk; returns the largest t.
+#[inline(always)]
+fn sweep_blocks<T, const D: usize, Kn, I, J, const N: usize>(
     job: &Job<'_, T, D, Kn, I, J>,
-    block: usize,
-    l: usize,
-) -> Kn::Sum
+    sites: Range<usize>,
+    mut out: <Kn::Out as Record<T>>::PlanesMut<'_>,
+    fused: bool,
+) -> T
 where
     T: Real,
     Kn: BondKernel<T, D>,
     I: Inputs<T, Value = Kn::Node>,
     J: Inputs<T, Value = Kn::Own>,
 {
-    let lattice = job.lattice;
-    let site = block * LANES + l;
-    let mut sum = Kn::Sum::zero();
-    for (o, (offset, k)) in lattice.offsets.iter().zip(job.table).enumerate() {
-        let there = match job.bits {
-            Some(bits) => lattice.intact_byte(bits, block, o),
-            None => lattice.present_byte(block, o),
-        };
-        if there >> l & 1 == 1 {
-            let other = site.wrapping_add_signed(offset.site);
-            let bond = Bond { xi: offset.xi, eta: job.u.get(other) - job.u.get(site) };
-            let pair = Pair { constants: [k, k], volumes: [offset.volume; 2] };
-            let nodes = [&job.input.load(site), &job.input.load(other)];
-            job.kernel.add(&mut sum, &bond, pair, nodes);
+    let limit = T::of(Bond::<T, D>::SMALL);
+    let first = sites.start;
+    let mut largest = [T::zero(); N];
+    for start in sites.step_by(N) {
+        let mask = job.visited::<N>(start);
+        if mask == 0 {
+            continue;
         }
+        let near: Planes<'_, T, N> = job.u.block(start);
+        let own_block = job.input.block::<N>(start);
+        let full = job.full::<N>(start);
+        let small = Arithmetic { small: Kn::STRETCH, fused };
+        let mut sums = <Kn::Sum as Record<T>>::lanes::<N>();
+        let (mut low, mut high) = ([T::zero(); N], [T::zero(); N]);
+        fold::<T, D, Kn, I, J, N>(
+            job,
+            &mut sums,
+            (&mut low, &mut high),
+            (start, full),
+            (&near, &own_block),
+            small,
+        );
+        if Kn::STRETCH {
+            let mut small = true;
+            for l in 0..N {
+                small &= (high[l] <= limit) & (low[l] >= -limit);
+            }
+            if !small {
+                let exact = Arithmetic { small: false, fused };
+                fold::<T, D, Kn, I, J, N>(
+                    job,
+                    &mut sums,
+                    (&mut low, &mut high),
+                    (start, false),
+                    (&near, &own_block),
+                    exact,
+                );
+            }
+        }
+        if Kn::TRACK {
+            for l in 0..N {
+                largest[l] = if high[l] > largest[l] { high[l] } else { largest[l] };
+            }
+        }
+        // A copy, so that the sums themselves are only read as whole vectors and stay in registers.
+        let mut finished = <Kn::Sum as Record<T>>::lanes::<N>();
+        for l in 0..N {
+            <Kn::Sum as Record<T>>::get::<N>(&sums, l).put::<N>(&mut finished, l);
+        }
+        let owns = job.own.block::<N>(start);
+        let before = <Kn::Out as Record<T>>::read_lanes::<N>(&out, start - first);
+        let mut closed = <Kn::Out as Record<T>>::lanes::<N>();
+        for l in 0..N {
+            let previous = <Kn::Out as Record<T>>::get::<N>(&before, l);
+            let sum = <Kn::Sum as Record<T>>::get::<N>(&finished, l);
+            let (node, own) = (I::lane::<N>(&own_block, l), J::lane::<N>(&owns, l));
+            job.kernel.close(&sum, &node, &own, previous).put::<N>(&mut closed, l);
+        }
+        <Kn::Out as Record<T>>::write_lanes::<N>(&closed, &mut out, start - first, mask);
     }
-    sum
+    largest.into_iter().fold(T::zero(), |a, b| if b > a { b } else { a })
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+    "x86_64+avx2+fma"
+))]
 fn sweep_chunk<T, const D: usize, Kn, I, J>(
     job: &Job<'_, T, D, Kn, I, J>,
-    blocks: Range<usize>,
-    mut out: <Kn::Out as Record<T>>::PlanesMut<'_>,
-) where
+    sites: Range<usize>,
+    out: <Kn::Out as Record<T>>::PlanesMut<'_>,
+) -> T
+where
     T: Real,
     Kn: BondKernel<T, D>,
     I: Inputs<T, Value = Kn::Node>,
     J: Inputs<T, Value = Kn::Own>,
 {
-    let lattice = job.lattice;
-    let first = blocks.start;
-    for block in blocks {
-        let mask = lattice.present[block];
-        if mask == 0 || job.marked && job.bits.is_some_and(|b| b.marks[block].load(Relaxed) == 0) {
-            continue;
-        }
-        let start = block * LANES;
-        let near = job.u.block(start);
-        let own_block = job.input.block(start);
-        let mut sums = <Kn::Sum as Record<T>>::lanes();
-        let full = match job.bits {
-            Some(bits) => bits.full[block].load(Relaxed) == 1,
-            None => lattice.interior[block],
-        };
-        let offsets = lattice.offsets.iter().zip(job.table);
-        if full {
-            for (offset, k) in offsets {
-                let volumes = [offset.volume; LANES];
-                add_lanes(job, &mut sums, (offset, k, volumes), start, (&near, &own_block));
-            }
-        } else {
-            for (o, (offset, k)) in offsets.enumerate() {
-                let there = match job.bits {
-                    Some(bits) => lattice.intact_byte(bits, block, o),
-                    None => mask & lattice.present_byte(block, o),
-                };
-                if there != 0 {
-                    let volume = |l| if there >> l & 1 == 1 { offset.volume } else { T::zero() };
-                    let volumes = std::array::from_fn(volume);
-                    add_lanes(job, &mut sums, (offset, k, volumes), start, (&near, &own_block));
-                }
-            }
-        }
-        for l in (0..LANES).filter(|l| mask >> l & 1 == 1) {
-            let at = (block - first) * LANES + l;
-            let previous = <Kn::Out as Record<T>>::read(&out, at);
-            let mut sum = <Kn::Sum as Record<T>>::get(&sums, l);
-            if !sum.is_finite() {
-                // A force law may overflow on a bond that broke long ago, and 0 · ∞ is NaN.
-                sum = add_one_by_one(job, block, l);
-            }
-            let (node, own) = (I::lane(&own_block, l), job.own.load(start + l));
-            job.kernel.close(&sum, &node, &own, previous).write(&mut out, at);
-        }
+    let fused = cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma");
+    if T::WIDE {
+        sweep_blocks::<T, D, Kn, I, J, { 2 * LANES }>(job, sites, out, fused)
+    } else {
+        sweep_blocks::<T, D, Kn, I, J, LANES>(job, sites, out, fused)
     }
 }
 
 /// Halves the range until it is one chunk; the planes are split along.
 fn sweep_range<T, const D: usize, Kn, I, J>(
     job: &Job<'_, T, D, Kn, I, J>,
-    blocks: Range<usize>,
+    sites: Range<usize>,
     out: <Kn::Out as Record<T>>::PlanesMut<'_>,
-) where
+) -> T
+where
     T: Real,
     Kn: BondKernel<T, D>,
     I: Inputs<T, Value = Kn::Node>,
     J: Inputs<T, Value = Kn::Own>,
 {
-    if blocks.len() <= CHUNK {
-        sweep_chunk(job, blocks, out);
-    } else {
-        let mid = blocks.len() / 2;
-        let (low, high) = <Kn::Out as Record<T>>::split(out, mid * LANES);
-        let (a, b) = (blocks.start..blocks.start + mid, blocks.start + mid..blocks.end);
-        rayon::join(|| sweep_range(job, a, low), || sweep_range(job, b, high));
+    if sites.len() <= CHUNK * LANES {
+        return sweep_chunk(job, sites, out);
     }
+    let mid = (sites.len() / 2).next_multiple_of(T::WIDTH);
+    let (low, high) = <Kn::Out as Record<T>>::split(out, mid);
+    let (a, b) = (sites.start..sites.start + mid, sites.start + mid..sites.end);
+    let (a, b) = rayon::join(|| sweep_range(job, a, low), || sweep_range(job, b, high));
+    if b > a { b } else { a }
 }
 
 /// Everything a chunk of a test reads.
@@ -437,7 +550,10 @@ where
     marks: &'a [AtomicU8],
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))]
+#[multiversion(targets(
+    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+    "x86_64+avx2+fma"
+))]
 fn break_chunk<T, const D: usize, B, I>(
     job: &TestJob<'_, T, D, B, I>,
     first: usize,
@@ -448,6 +564,8 @@ where
     B: BondTest<T, D>,
     I: Inputs<T, Value = B::Node>,
 {
+    let fused = cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma");
+    let arithmetic = Arithmetic { small: false, fused };
     let lattice = job.lattice;
     let half = lattice.half();
     let mut broken = 0;
@@ -461,8 +579,8 @@ where
             continue;
         }
         let start = block * LANES;
-        let near = job.u.block(start);
-        let own_block = job.input.block(start);
+        let near: Planes<'_, T, LANES> = job.u.block(start);
+        let own_block = job.input.block::<LANES>(start);
         let owned = lattice.offsets[half..].iter().zip(&job.table[half..]);
         for (byte, (offset, k)) in bytes.iter_mut().zip(owned) {
             if *byte == 0 {
@@ -470,11 +588,13 @@ where
             }
             let beyond = start.wrapping_add_signed(offset.site);
             let far = job.u.block(beyond);
-            let other_block = job.input.block(beyond);
+            let other_block = job.input.block::<LANES>(beyond);
             let pair = Pair { constants: [k, k], volumes: [T::one(); 2] };
             *index = std::array::from_fn(|l| {
-                let bond = Bond { xi: offset.xi, eta: relative(&near, &far, l) };
-                let (own, other) = (I::lane(&own_block, l), I::lane(&other_block, l));
+                let eta = relative(&near, &far, l);
+                let bond = Bond::of_kernel(offset.xi, eta, offset.inverse_square, arithmetic);
+                let (own, other) =
+                    (I::lane::<LANES>(&own_block, l), I::lane::<LANES>(&other_block, l));
                 job.test.index(&bond, pair, [&own, &other])
             });
             if *byte != 0xff {
@@ -660,14 +780,15 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         u: &Field<T, SVector<T, D>>,
         (input, own): (I, J),
         out: &mut Field<T, Kn::Out>,
-    ) where
+    ) -> T
+    where
         Kn: BondKernel<T, D>,
         I: Inputs<T, Value = Kn::Node>,
         J: Inputs<T, Value = Kn::Own>,
     {
         let marked = visit == Visit::Marked;
         let job = Job { lattice: self, kernel, table, bits, marked, u, input, own };
-        sweep_range(&job, 0..self.sites / LANES, out.planes_mut());
+        sweep_range(&job, 0..self.sites, out.planes_mut())
     }
 
     fn break_bonds<B, I>(

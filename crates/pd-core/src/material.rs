@@ -35,6 +35,9 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
     /// True if forces are exactly linear in the displacements: the [static
     /// solver](crate::statics) then takes them as they are, else differences of them.
     const LINEAR: bool = false;
+    /// False if nothing depends on the stretch of a bond ([`Bond::stretch`]): then kernels do not
+    /// look at it.
+    const STRETCH: bool = true;
 
     /// Mass density ρ of a node in kg/m³.
     fn density(&self, node: usize) -> f64;
@@ -95,6 +98,18 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
     ) -> SVector<T, D> {
         self.force_state(bond, ends[0]) * ends[0].volume
             - self.force_state(&bond.reversed(), ends[1]) * ends[1].volume
+    }
+
+    /// Adds [`pair_force`](Self::pair_force) to the force density of the bond's first node.
+    /// Override it where the multiplications can take the addition along ([`Bond::fma`]).
+    #[inline(always)]
+    fn add_pair_force(
+        &self,
+        sum: &mut SVector<T, D>,
+        bond: &Bond<T, D>,
+        ends: [End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>; 2],
+    ) {
+        *sum += self.pair_force(bond, ends);
     }
 
     /// True if the node has lost its shape tensor: it carries no stress and its bonds break.
@@ -196,6 +211,7 @@ impl<T: Real, const D: usize, M: Material<T, D>> Material<T, D> for &M {
     const FOLLOWS_DAMAGE: bool = M::FOLLOWS_DAMAGE;
     const LINEAR: bool = M::LINEAR;
     const CAN_FAULT: bool = M::CAN_FAULT;
+    const STRETCH: bool = M::STRETCH;
 
     fn density(&self, node: usize) -> f64 {
         (**self).density(node)
@@ -243,6 +259,15 @@ impl<T: Real, const D: usize, M: Material<T, D>> Material<T, D> for &M {
         ends: [End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>; 2],
     ) -> SVector<T, D> {
         (**self).pair_force(bond, ends)
+    }
+    #[inline(always)]
+    fn add_pair_force(
+        &self,
+        sum: &mut SVector<T, D>,
+        bond: &Bond<T, D>,
+        ends: [End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>; 2],
+    ) {
+        (**self).add_pair_force(sum, bond, ends);
     }
     #[inline(always)]
     fn detached(&self, family: &Self::FamilyConst) -> bool {

@@ -8,7 +8,8 @@ use crate::Real;
 use crate::field::Planes;
 use nalgebra::SMatrix;
 
-/// Number of consecutive nodes that a lattice kernel handles together.
+/// Number of consecutive nodes whose bits share a byte. A lattice kernel handles this many together
+/// or, where the scalar is short, twice as many.
 pub const LANES: usize = 8;
 
 /// A fixed number of scalars that can be stored as planes: `T`, `()`, vectors, matrices, pairs.
@@ -17,19 +18,17 @@ pub trait Record<T: Real>: Copy + Send + Sync + 'static {
     const LEN: usize;
     /// One plane per scalar, borrowed for writing.
     type PlanesMut<'a>: Send;
-    /// [`LANES`] records as planes, for running sums.
-    type Lanes: Copy;
+    /// N records as planes, for running sums.
+    type Lanes<const N: usize>: Copy;
 
     /// All scalars zero.
     fn zero() -> Self;
-    /// [`LANES`] zero records.
-    fn lanes() -> Self::Lanes;
+    /// N zero records.
+    fn lanes<const N: usize>() -> Self::Lanes<N>;
     /// Record `lane` of a running sum.
-    fn get(lanes: &Self::Lanes, lane: usize) -> Self;
+    fn get<const N: usize>(lanes: &Self::Lanes<N>, lane: usize) -> Self;
     /// Overwrites record `lane` of a running sum.
-    fn put(self, lanes: &mut Self::Lanes, lane: usize);
-    /// False if a scalar is NaN or infinite.
-    fn is_finite(&self) -> bool;
+    fn put<const N: usize>(self, lanes: &mut Self::Lanes<N>, lane: usize);
     /// `a` where `on`, else `b`: a blend, not a branch.
     fn select(on: bool, a: Self, b: Self) -> Self;
     /// Splits `data` (planes of length `stride`, one after the other) into planes.
@@ -40,39 +39,44 @@ pub trait Record<T: Real>: Copy + Send + Sync + 'static {
         mid: usize,
     ) -> (Self::PlanesMut<'a>, Self::PlanesMut<'a>);
     /// Node `lane` of a block whose planes from `first` on hold this record.
-    fn lane(block: &Planes<'_, T>, first: usize, lane: usize) -> Self;
+    fn lane<const N: usize>(block: &Planes<'_, T, N>, first: usize, lane: usize) -> Self;
     /// Node `i` of the planes.
     fn load(data: &[T], stride: usize, i: usize) -> Self;
     /// Node `i` of writable planes.
     fn read(planes: &Self::PlanesMut<'_>, i: usize) -> Self;
     /// Writes node `i`.
     fn write(self, planes: &mut Self::PlanesMut<'_>, i: usize);
+    /// Nodes `i .. i + N` of writable planes.
+    fn read_lanes<const N: usize>(planes: &Self::PlanesMut<'_>, i: usize) -> Self::Lanes<N>;
+    /// Writes those of the nodes `i .. i + N` whose bit of `mask` is set.
+    fn write_lanes<const N: usize>(
+        lanes: &Self::Lanes<N>,
+        planes: &mut Self::PlanesMut<'_>,
+        i: usize,
+        mask: u32,
+    );
 }
 
 impl<T: Real> Record<T> for T {
     const LEN: usize = 1;
     type PlanesMut<'a> = &'a mut [T];
-    type Lanes = [T; LANES];
+    type Lanes<const N: usize> = [T; N];
 
     #[inline(always)]
     fn zero() -> Self {
         T::zero()
     }
     #[inline(always)]
-    fn lanes() -> [T; LANES] {
-        [T::zero(); LANES]
+    fn lanes<const N: usize>() -> [T; N] {
+        [T::zero(); N]
     }
     #[inline(always)]
-    fn get(lanes: &[T; LANES], lane: usize) -> T {
+    fn get<const N: usize>(lanes: &[T; N], lane: usize) -> T {
         lanes[lane]
     }
     #[inline(always)]
-    fn put(self, lanes: &mut [T; LANES], lane: usize) {
+    fn put<const N: usize>(self, lanes: &mut [T; N], lane: usize) {
         lanes[lane] = self;
-    }
-    #[inline(always)]
-    fn is_finite(&self) -> bool {
-        nalgebra::ComplexField::is_finite(self)
     }
     #[inline(always)]
     fn select(on: bool, a: T, b: T) -> T {
@@ -90,7 +94,7 @@ impl<T: Real> Record<T> for T {
         planes.split_at_mut(mid)
     }
     #[inline(always)]
-    fn lane(block: &Planes<'_, T>, first: usize, lane: usize) -> T {
+    fn lane<const N: usize>(block: &Planes<'_, T, N>, first: usize, lane: usize) -> T {
         block.plane(first)[lane]
     }
     #[inline(always)]
@@ -105,25 +109,37 @@ impl<T: Real> Record<T> for T {
     fn write(self, planes: &mut &mut [T], i: usize) {
         planes[i] = self;
     }
+    #[inline(always)]
+    fn read_lanes<const N: usize>(planes: &&mut [T], i: usize) -> [T; N] {
+        let slots = &planes[i..i + N];
+        let mut lanes = [T::zero(); N];
+        for l in 0..N {
+            lanes[l] = slots[l];
+        }
+        lanes
+    }
+    #[inline(always)]
+    fn write_lanes<const N: usize>(lanes: &[T; N], planes: &mut &mut [T], i: usize, mask: u32) {
+        let slots = &mut planes[i..i + N];
+        for l in 0..N {
+            slots[l] = if mask >> l & 1 == 1 { lanes[l] } else { slots[l] };
+        }
+    }
 }
 
 impl<T: Real> Record<T> for () {
     const LEN: usize = 0;
     type PlanesMut<'a> = ();
-    type Lanes = ();
+    type Lanes<const N: usize> = ();
 
     #[inline(always)]
     fn zero() -> Self {}
     #[inline(always)]
-    fn lanes() {}
+    fn lanes<const N: usize>() {}
     #[inline(always)]
-    fn get((): &(), _: usize) {}
+    fn get<const N: usize>((): &(), _: usize) {}
     #[inline(always)]
-    fn put(self, (): &mut (), _: usize) {}
-    #[inline(always)]
-    fn is_finite(&self) -> bool {
-        true
-    }
+    fn put<const N: usize>(self, (): &mut (), _: usize) {}
     #[inline(always)]
     fn select(_: bool, (): (), (): ()) {}
     #[inline(always)]
@@ -133,43 +149,43 @@ impl<T: Real> Record<T> for () {
         ((), ())
     }
     #[inline(always)]
-    fn lane(_: &Planes<'_, T>, _: usize, _: usize) -> Self {}
+    fn lane<const N: usize>(_: &Planes<'_, T, N>, _: usize, _: usize) -> Self {}
     #[inline(always)]
     fn load(_: &[T], _: usize, _: usize) -> Self {}
     #[inline(always)]
     fn read((): &(), _: usize) -> Self {}
     #[inline(always)]
     fn write(self, (): &mut (), _: usize) {}
+    #[inline(always)]
+    fn read_lanes<const N: usize>((): &(), _: usize) {}
+    #[inline(always)]
+    fn write_lanes<const N: usize>((): &(), (): &mut (), _: usize, _: u32) {}
 }
 
 impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
     const LEN: usize = R * C;
     type PlanesMut<'a> = [[&'a mut [T]; R]; C];
-    type Lanes = [[[T; LANES]; R]; C];
+    type Lanes<const N: usize> = [[[T; N]; R]; C];
 
     #[inline(always)]
     fn zero() -> Self {
         Self::zeros()
     }
     #[inline(always)]
-    fn lanes() -> Self::Lanes {
-        [[[T::zero(); LANES]; R]; C]
+    fn lanes<const N: usize>() -> Self::Lanes<N> {
+        [[[T::zero(); N]; R]; C]
     }
     #[inline(always)]
-    fn get(lanes: &Self::Lanes, lane: usize) -> Self {
+    fn get<const N: usize>(lanes: &Self::Lanes<N>, lane: usize) -> Self {
         Self::from_fn(|r, c| lanes[c][r][lane])
     }
     #[inline(always)]
-    fn put(self, lanes: &mut Self::Lanes, lane: usize) {
+    fn put<const N: usize>(self, lanes: &mut Self::Lanes<N>, lane: usize) {
         for c in 0..C {
             for r in 0..R {
                 lanes[c][r][lane] = self[(r, c)];
             }
         }
-    }
-    #[inline(always)]
-    fn is_finite(&self) -> bool {
-        self.iter().all(Record::is_finite)
     }
     #[inline(always)]
     fn select(on: bool, a: Self, b: Self) -> Self {
@@ -206,7 +222,7 @@ impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
         (low, high)
     }
     #[inline(always)]
-    fn lane(block: &Planes<'_, T>, first: usize, lane: usize) -> Self {
+    fn lane<const N: usize>(block: &Planes<'_, T, N>, first: usize, lane: usize) -> Self {
         Self::from_fn(|r, c| block.plane(first + c * R + r)[lane])
     }
     #[inline(always)]
@@ -225,33 +241,52 @@ impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
             }
         }
     }
+    #[inline(always)]
+    fn read_lanes<const N: usize>(planes: &Self::PlanesMut<'_>, i: usize) -> Self::Lanes<N> {
+        let mut lanes = Self::lanes::<N>();
+        for c in 0..C {
+            for r in 0..R {
+                lanes[c][r] = T::read_lanes::<N>(&planes[c][r], i);
+            }
+        }
+        lanes
+    }
+    #[inline(always)]
+    fn write_lanes<const N: usize>(
+        lanes: &Self::Lanes<N>,
+        planes: &mut Self::PlanesMut<'_>,
+        i: usize,
+        mask: u32,
+    ) {
+        for c in 0..C {
+            for r in 0..R {
+                T::write_lanes::<N>(&lanes[c][r], &mut planes[c][r], i, mask);
+            }
+        }
+    }
 }
 
 impl<T: Real, A: Record<T>, B: Record<T>> Record<T> for (A, B) {
     const LEN: usize = A::LEN + B::LEN;
     type PlanesMut<'a> = (A::PlanesMut<'a>, B::PlanesMut<'a>);
-    type Lanes = (A::Lanes, B::Lanes);
+    type Lanes<const N: usize> = (A::Lanes<N>, B::Lanes<N>);
 
     #[inline(always)]
     fn zero() -> Self {
         (A::zero(), B::zero())
     }
     #[inline(always)]
-    fn lanes() -> Self::Lanes {
-        (A::lanes(), B::lanes())
+    fn lanes<const N: usize>() -> Self::Lanes<N> {
+        (A::lanes::<N>(), B::lanes::<N>())
     }
     #[inline(always)]
-    fn get(lanes: &Self::Lanes, lane: usize) -> Self {
-        (A::get(&lanes.0, lane), B::get(&lanes.1, lane))
+    fn get<const N: usize>(lanes: &Self::Lanes<N>, lane: usize) -> Self {
+        (A::get::<N>(&lanes.0, lane), B::get::<N>(&lanes.1, lane))
     }
     #[inline(always)]
-    fn put(self, lanes: &mut Self::Lanes, lane: usize) {
-        self.0.put(&mut lanes.0, lane);
-        self.1.put(&mut lanes.1, lane);
-    }
-    #[inline(always)]
-    fn is_finite(&self) -> bool {
-        self.0.is_finite() && self.1.is_finite()
+    fn put<const N: usize>(self, lanes: &mut Self::Lanes<N>, lane: usize) {
+        self.0.put::<N>(&mut lanes.0, lane);
+        self.1.put::<N>(&mut lanes.1, lane);
     }
     #[inline(always)]
     fn select(on: bool, a: Self, b: Self) -> Self {
@@ -272,7 +307,7 @@ impl<T: Real, A: Record<T>, B: Record<T>> Record<T> for (A, B) {
         ((a0, b0), (a1, b1))
     }
     #[inline(always)]
-    fn lane(block: &Planes<'_, T>, first: usize, lane: usize) -> Self {
+    fn lane<const N: usize>(block: &Planes<'_, T, N>, first: usize, lane: usize) -> Self {
         (A::lane(block, first, lane), B::lane(block, first + A::LEN, lane))
     }
     #[inline(always)]
@@ -288,5 +323,19 @@ impl<T: Real, A: Record<T>, B: Record<T>> Record<T> for (A, B) {
     fn write(self, planes: &mut Self::PlanesMut<'_>, i: usize) {
         self.0.write(&mut planes.0, i);
         self.1.write(&mut planes.1, i);
+    }
+    #[inline(always)]
+    fn read_lanes<const N: usize>(planes: &Self::PlanesMut<'_>, i: usize) -> Self::Lanes<N> {
+        (A::read_lanes::<N>(&planes.0, i), B::read_lanes::<N>(&planes.1, i))
+    }
+    #[inline(always)]
+    fn write_lanes<const N: usize>(
+        lanes: &Self::Lanes<N>,
+        planes: &mut Self::PlanesMut<'_>,
+        i: usize,
+        mask: u32,
+    ) {
+        A::write_lanes::<N>(&lanes.0, &mut planes.0, i, mask);
+        B::write_lanes::<N>(&lanes.1, &mut planes.1, i, mask);
     }
 }

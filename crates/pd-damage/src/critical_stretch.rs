@@ -89,6 +89,11 @@ impl CriticalStretch {
         Error::positive("stiffness of crossing bonds [Pa]", stiffness)?;
         Self::new((energy.value() / (stiffness * horizon)).sqrt())
     }
+    /// 1/(λ_c² − 1).
+    #[inline(always)]
+    fn per_t<T: Real>(&self) -> T {
+        T::of(1.0 / (self.stretch * (2.0 + self.stretch)))
+    }
     /// s_c.
     pub fn stretch(&self) -> f64 {
         self.stretch
@@ -101,8 +106,9 @@ impl<T: Real, const D: usize, M: Material<T, D>> DamageCriterion<T, D, M> for Cr
 
     #[inline(always)]
     fn index(&self, tested: &TestedBond<'_, T, D, M, (), ()>) -> T {
-        let (xi, eta) = (tested.bond.xi, tested.bond.eta);
-        let critical = T::of(self.stretch * (2.0 + self.stretch));
-        eta.dot(&(xi + xi + eta)) * (xi.dot(&xi) * critical).recip()
+        tested.bond.square_strain() * self.per_t()
+    }
+    fn per_square_strain(&self) -> Option<T> {
+        Some(self.per_t())
     }
 }

@@ -41,7 +41,7 @@ fn critical_stretch() {
             let given = numbers(&case[key]);
             SVector::<f64, 3>::from_fn(|d, _| given.get(d).copied().unwrap_or(0.0))
         };
-        let bond = Bond { xi: vector("xi"), eta: vector("u_j") - vector("u_i") };
+        let bond = Bond::new(vector("xi"), vector("u_j") - vector("u_i"));
         let criterion = CriticalStretch::new(case["s_c"].as_f64().expect("s_c")).expect("s_c");
         let end = End { bond: &(), node: &(), state: &(), volume: 1.0 };
         let tested = TestedBond {

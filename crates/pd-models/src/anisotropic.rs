@@ -7,7 +7,7 @@ use crate::kinematics::BondLength;
 use crate::linear_solid::weighted_volume;
 use crate::ordinary::ScalarState;
 use nalgebra::{Matrix6, SMatrix, SVector};
-use pd_core::bond::{Neighbourhood, Scale};
+use pd_core::bond::{Bond, Neighbourhood, Scale};
 use pd_core::influence::Influence;
 use pd_core::{Real, Result as CoreResult};
 use std::sync::Arc;
@@ -209,22 +209,30 @@ impl<T: Real, const D: usize, const S: usize> ScalarState<T, D> for PolynomialMi
         weighted_volume(m, family.node, true).map(|m| (T::of(1.0 / m), ()))
     }
     #[inline(always)]
-    fn add(&self, sum: &mut SVector<T, S>, e: T, k: &PolynomialBond<T, S>, volume: T) {
-        *sum += k.shear * (e * volume);
+    fn add(
+        &self,
+        sum: &mut SVector<T, S>,
+        bond: &Bond<T, D>,
+        e: T,
+        k: &PolynomialBond<T, S>,
+        volume: T,
+    ) {
+        bond.add_scaled(sum, e * volume, &k.shear);
     }
     #[inline(always)]
     fn close(&self, sum: &SVector<T, S>, inverse_m: &T, (): &()) -> SVector<T, S> {
         self.lambda.map(T::of) * *sum * (*inverse_m * *inverse_m)
     }
     #[inline(always)]
-    fn scalar_force(
+    fn line(
         &self,
-        e: T,
+        bond: &Bond<T, D>,
+        weight: T,
         k: &PolynomialBond<T, S>,
         inverse_m: &T,
         state: &SVector<T, S>,
-    ) -> T {
-        *inverse_m * k.stiffness * e + k.shear.dot(state)
+    ) -> (Option<T>, T) {
+        (Some(bond.dot(&k.shear, state) * weight), *inverse_m * (k.stiffness * weight))
     }
 }
 
@@ -388,16 +396,30 @@ impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSpli
         Ok((T::of(k0 / m), spread.map(T::of)))
     }
     #[inline(always)]
-    fn add(&self, sum: &mut SVector<T, V>, e: T, k: &SplitBond<T, V>, volume: T) {
-        *sum += k.strain * (e * volume);
+    fn add(
+        &self,
+        sum: &mut SVector<T, V>,
+        bond: &Bond<T, D>,
+        e: T,
+        k: &SplitBond<T, V>,
+        volume: T,
+    ) {
+        bond.add_scaled(sum, e * volume, &k.strain);
     }
     #[inline(always)]
     fn close(&self, sum: &SVector<T, V>, _: &T, spread: &SMatrix<T, V, V>) -> SVector<T, V> {
         spread * *sum
     }
     #[inline(always)]
-    fn scalar_force(&self, e: T, k: &SplitBond<T, V>, k0_over_m: &T, state: &SVector<T, V>) -> T {
-        *k0_over_m * k.omega * e + k.strain.dot(state)
+    fn line(
+        &self,
+        bond: &Bond<T, D>,
+        weight: T,
+        k: &SplitBond<T, V>,
+        k0_over_m: &T,
+        state: &SVector<T, V>,
+    ) -> (Option<T>, T) {
+        (Some(bond.dot(&k.strain, state) * weight), *k0_over_m * (k.omega * weight))
     }
 }
 

@@ -89,6 +89,8 @@ impl<T: Real, const D: usize, const V: usize> Material<T, D> for BondAssociated<
     /// (C:H − R) B and H.
     type NodeState = (SMatrix<T, D, D>, SMatrix<T, D, D>);
     const FOLLOWS_DAMAGE: bool = true;
+    const LINEAR: bool = true;
+    const STRETCH: bool = false;
 
     fn density(&self, _: usize) -> f64 {
         self.density

@@ -100,8 +100,8 @@ impl<T: Real, const D: usize> ScalarState<T, D> for Pmb {
         T::of(0.5 * self.micromodulus(scale.horizon) * omega / xi.norm())
     }
     #[inline(always)]
-    fn scalar_force(&self, e: T, k: &T, (): &(), (): &()) -> T {
-        *k * e
+    fn line(&self, _: &Bond<T, D>, weight: T, k: &T, (): &(), (): &()) -> (Option<T>, T) {
+        (None, *k * weight)
     }
 }
 
@@ -129,8 +129,8 @@ impl<T: Real, const D: usize> ScalarState<T, D> for PmbOnFamily {
         Ok((T::of(if sum > 0.0 { 0.5 * self.0.modulus / sum } else { 0.0 }), ()))
     }
     #[inline(always)]
-    fn scalar_force(&self, e: T, k: &T, half_c: &T, (): &()) -> T {
-        *half_c * *k * e
+    fn line(&self, _: &Bond<T, D>, weight: T, k: &T, half_c: &T, (): &()) -> (Option<T>, T) {
+        (None, *half_c * (*k * weight))
     }
 }
 
@@ -186,8 +186,8 @@ impl<T: Real, const D: usize, L: BondLaw<T, D>> Material<T, D> for BondBased<L> 
     }
     #[inline(always)]
     fn force_state(&self, bond: &Bond<T, D>, end: End<'_, T, L::Const, (), ()>) -> SVector<T, D> {
-        let y = bond.deformed();
-        y * (self.0.force(bond, end.bond) / y.dot(&y).sqrt())
+        let inverse = bond.stretch().inverse * bond.inverse_square().sqrt();
+        bond.deformed() * (self.0.force(bond, end.bond) * inverse)
     }
     #[inline(always)]
     fn pair_force(

@@ -38,6 +38,23 @@ pub trait Hyperelastic<T: Real, const D: usize>: Constitutive<T, D> {
     fn energy(&self, h: &SMatrix<T, D, D>) -> T;
 }
 
+/// A B in plain loops, which vectorise over nodes.
+#[inline(always)]
+fn product<T: Real, const D: usize, const N: usize>(
+    a: &SMatrix<T, D, D>,
+    b: &SMatrix<T, D, N>,
+) -> SMatrix<T, D, N> {
+    let mut product = SMatrix::<T, D, N>::zeros();
+    for j in 0..N {
+        for k in 0..D {
+            for i in 0..D {
+                product[(i, j)] += a[(i, k)] * b[(k, j)];
+            }
+        }
+    }
+    product
+}
+
 /// Σ A_ij B_ij.
 #[inline(always)]
 fn double_dot<T: Real, const D: usize>(a: &SMatrix<T, D, D>, b: &SMatrix<T, D, D>) -> T {
@@ -111,7 +128,7 @@ impl<T: Real, const D: usize> Constitutive<T, D> for SaintVenantKirchhoff<D> {
     #[inline(always)]
     fn stress(&self, h: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {
         let s = self.0.contract(&Self::green(h));
-        s + h * s
+        s + product(h, &s)
     }
 }
 
@@ -176,6 +193,11 @@ pub trait ZeroEnergyControl<T: Real, const D: usize>: Send + Sync {
         c: &Self::NodeConst,
         a: &SMatrix<T, D, N>,
     ) -> SMatrix<T, D, N>;
+    /// sum + C η of a bond.
+    #[inline(always)]
+    fn add_to(&self, sum: &mut SVector<T, D>, c: &Self::NodeConst, bond: &Bond<T, D>) {
+        *sum += self.stiffness_times(c, &bond.eta);
+    }
 }
 
 /// No control, as in Hattori: every zone-corner wave is a zero-energy mode (errata 000-20).
@@ -189,6 +211,8 @@ impl<T: Real, const D: usize> ZeroEnergyControl<T, D> for NoControl {
     fn stiffness_times<const N: usize>(&self, (): &(), _: &SMatrix<T, D, N>) -> SMatrix<T, D, N> {
         SMatrix::zeros()
     }
+    #[inline(always)]
+    fn add_to(&self, _: &mut SVector<T, D>, (): &(), _: &Bond<T, D>) {}
 }
 
 /// Silling 2017: Z = (g c/ω₀) z with ω₀ = Σ ω βV and c = 18K/(πδ⁴) in 3D (2D²κ/∫|ξ|dV in general).
@@ -228,6 +252,10 @@ impl<T: Real, const D: usize> ZeroEnergyControl<T, D> for SillingControl {
     fn stiffness_times<const N: usize>(&self, c: &T, a: &SMatrix<T, D, N>) -> SMatrix<T, D, N> {
         a * *c
     }
+    #[inline(always)]
+    fn add_to(&self, sum: &mut SVector<T, D>, c: &T, bond: &Bond<T, D>) {
+        bond.add_scaled(sum, *c, &bond.eta);
+    }
 }
 
 /// Wan et al. 2019: Z = g C̄ z with C̄_ik = C_ijkl B_jl. g = 1 lifts the softest mode to the
@@ -249,10 +277,11 @@ impl<const D: usize> WanControl<D> {
 }
 
 impl<T: Real, const D: usize> ZeroEnergyControl<T, D> for WanControl<D> {
-    /// g C̄.
-    type NodeConst = SMatrix<T, D, D>;
-    fn node_const(&self, b: &SMatrix<f64, D, D>, _: f64, _: Scale) -> SMatrix<T, D, D> {
-        SMatrix::from_fn(|i, k| {
+    /// g C̄, which is symmetric as C and B are: its diagonal, and beside each entry d of it the one
+    /// off the diagonal in the rows and columns other than d (D = 3) or all (D = 2).
+    type NodeConst = (SVector<T, D>, SVector<T, D>);
+    fn node_const(&self, b: &SMatrix<f64, D, D>, _: f64, _: Scale) -> Self::NodeConst {
+        let entry = |i: usize, k: usize| {
             let mut sum = 0.0;
             for j in 0..D {
                 for l in 0..D {
@@ -260,16 +289,41 @@ impl<T: Real, const D: usize> ZeroEnergyControl<T, D> for WanControl<D> {
                 }
             }
             T::of(self.strength * sum)
-        })
+        };
+        let diagonal = SVector::from_fn(|d, _| entry(d, d));
+        (diagonal, SVector::from_fn(|d, _| entry((d + 1) % D, (d + 2) % D)))
     }
     #[inline(always)]
     fn stiffness_times<const N: usize>(
         &self,
-        c: &SMatrix<T, D, D>,
+        (diagonal, rest): &Self::NodeConst,
         a: &SMatrix<T, D, N>,
     ) -> SMatrix<T, D, N> {
-        c * a
+        let c = SMatrix::<T, D, D>::from_fn(|i, k| {
+            if i == k { diagonal[i] } else { rest[off_diagonal(D, i, k)] }
+        });
+        product(&c, a)
     }
+    #[inline(always)]
+    fn add_to(
+        &self,
+        sum: &mut SVector<T, D>,
+        (diagonal, rest): &Self::NodeConst,
+        bond: &Bond<T, D>,
+    ) {
+        for i in 0..D {
+            for k in 0..D {
+                let c = if i == k { diagonal[i] } else { rest[off_diagonal(D, i, k)] };
+                sum[i] = bond.fma(c, bond.eta[k], sum[i]);
+            }
+        }
+    }
+}
+
+/// Where [`WanControl`] keeps the entry (i, k), i ≠ k, of a symmetric D × D matrix.
+#[inline(always)]
+fn off_diagonal(dimension: usize, i: usize, k: usize) -> usize {
+    if dimension == 3 { 3 - i - k } else { 0 }
 }
 
 /// Correspondence material: H = (Σ μ ω η⊗ξ βV) B, T = ω (P(H) B ξ + Z), B = K⁻¹ of the intact
@@ -313,6 +367,29 @@ impl<L, Z> Correspondence<L, Z> {
     }
 }
 
+impl<L, Z> Correspondence<L, Z> {
+    /// T/ω = (P B − C H) ξ + C η.
+    #[inline(always)]
+    fn per_omega<T: Real, const D: usize>(
+        &self,
+        bond: &Bond<T, D>,
+        end: End<'_, T, T, Z::NodeConst, (SMatrix<T, D, D>, SMatrix<T, D, D>)>,
+    ) -> SVector<T, D>
+    where
+        Z: ZeroEnergyControl<T, D>,
+    {
+        let (a, _) = end.state;
+        let mut t = SVector::<T, D>::from_fn(|i, _| a[(i, 0)] * bond.xi[0]);
+        for j in 1..D {
+            for i in 0..D {
+                t[i] = bond.fma(a[(i, j)], bond.xi[j], t[i]);
+            }
+        }
+        self.control.add_to(&mut t, end.node, bond);
+        t
+    }
+}
+
 impl<T, const D: usize, L, Z> Material<T, D> for Correspondence<L, Z>
 where
     T: Real,
@@ -331,6 +408,7 @@ where
     type NodeState = (SMatrix<T, D, D>, SMatrix<T, D, D>);
     const FOLLOWS_DAMAGE: bool = true;
     const LINEAR: bool = L::LINEAR;
+    const STRETCH: bool = false;
     const CAN_FAULT: bool = L::NEEDS_POSITIVE_J;
 
     fn density(&self, _: usize) -> f64 {
@@ -357,7 +435,13 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, T, Self::NodeConst, ()>,
     ) {
-        *sum += (bond.eta * (*end.bond * end.volume)) * bond.xi.transpose();
+        // The small numbers by columns: ξ and ω βV are the same for a whole block of a lattice.
+        let weighted = bond.xi * (*end.bond * end.volume);
+        for j in 0..D {
+            for i in 0..D {
+                sum[(i, j)] = bond.fma(bond.eta[i], weighted[j], sum[(i, j)]);
+            }
+        }
     }
     #[inline(always)]
     fn node_state(
@@ -367,8 +451,8 @@ where
         b: &SMatrix<T, D, D>,
         _: &Self::NodeState,
     ) -> Self::NodeState {
-        let h = sum * b;
-        (self.law.stress(&h) * b - self.control.stiffness_times(c, &h), h)
+        let h = product(sum, b);
+        (product(&self.law.stress(&h), b) - self.control.stiffness_times(c, &h), h)
     }
     #[inline(always)]
     fn force_state(
@@ -376,8 +460,18 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, T, Self::NodeConst, Self::NodeState>,
     ) -> SVector<T, D> {
-        let (a, _) = end.state;
-        (a * bond.xi + self.control.stiffness_times(end.node, &bond.eta)) * *end.bond
+        self.per_omega(bond, end) * *end.bond
+    }
+    #[inline(always)]
+    fn add_pair_force(
+        &self,
+        sum: &mut SVector<T, D>,
+        bond: &Bond<T, D>,
+        [near, far]: [End<'_, T, T, Self::NodeConst, Self::NodeState>; 2],
+    ) {
+        // Both ends see the bond from the near one: T' of the reversed bond is −T.
+        bond.add_scaled(sum, *near.bond * near.volume, &self.per_omega(bond, near));
+        bond.add_scaled(sum, *far.bond * far.volume, &self.per_omega(bond, far));
     }
     #[inline(always)]
     fn detached(&self, b: &Self::FamilyConst) -> bool {

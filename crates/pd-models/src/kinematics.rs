@@ -25,10 +25,16 @@ impl<T: Real> BondLength<T> {
 pub trait Kinematics: Copy + Default + Send + Sync + 'static {
     /// True if e is linear in η and M does not depend on it.
     const LINEAR: bool = false;
-    /// Extension e and direction M of the force.
-    fn extension_and_direction<T: Real, const D: usize>(
+    /// False if nothing depends on the stretch of the bond.
+    const STRETCH: bool;
+    /// Extension e.
+    fn extension<T: Real, const D: usize>(bond: &Bond<T, D>, length: BondLength<T>) -> T;
+    /// The force (a + b e) M as a number times a vector; `None` for a = 0.
+    fn force<T: Real, const D: usize>(
         bond: &Bond<T, D>,
         length: BondLength<T>,
+        a: Option<T>,
+        b: T,
     ) -> (T, SVector<T, D>);
 }
 
@@ -37,12 +43,25 @@ pub trait Kinematics: Copy + Default + Send + Sync + 'static {
 pub struct Finite;
 
 impl Kinematics for Finite {
+    const STRETCH: bool = true;
     #[inline(always)]
-    fn extension_and_direction<T: Real, const D: usize>(
+    fn extension<T: Real, const D: usize>(bond: &Bond<T, D>, length: BondLength<T>) -> T {
+        bond.extension(length.length)
+    }
+    /// With g = 1 − |ξ|/|Y|: e M = g Y and M = (1 − g) Y/|ξ|.
+    #[inline(always)]
+    fn force<T: Real, const D: usize>(
         bond: &Bond<T, D>,
         length: BondLength<T>,
+        a: Option<T>,
+        b: T,
     ) -> (T, SVector<T, D>) {
-        bond.extension_and_direction(length.length)
+        let g = bond.stretch().g;
+        let y = bond.deformed();
+        match a.map(|a| a * length.inverse) {
+            Some(a) => (bond.fma(b - a, g, a), y),
+            None => (b * g, y),
+        }
     }
 }
 
@@ -52,12 +71,20 @@ pub struct Linearised;
 
 impl Kinematics for Linearised {
     const LINEAR: bool = true;
+    const STRETCH: bool = false;
     #[inline(always)]
-    fn extension_and_direction<T: Real, const D: usize>(
+    fn extension<T: Real, const D: usize>(bond: &Bond<T, D>, length: BondLength<T>) -> T {
+        bond.dot(&bond.eta, &(bond.xi * length.inverse))
+    }
+    #[inline(always)]
+    fn force<T: Real, const D: usize>(
         bond: &Bond<T, D>,
         length: BondLength<T>,
+        a: Option<T>,
+        b: T,
     ) -> (T, SVector<T, D>) {
         let n = bond.xi * length.inverse;
-        (bond.eta.dot(&n), n)
+        let e = bond.dot(&bond.eta, &n);
+        (a.map_or(b * e, |a| bond.fma(b, e, a)), n)
     }
 }

@@ -68,9 +68,19 @@ impl LinearSolid {
     }
 }
 
+/// Constants of a bond of [`LinearSolid`].
+#[derive(Debug, Clone, Copy)]
+pub struct LinearBond<T> {
+    /// ω|ξ|.
+    sum: T,
+    /// (Dκ − α/D) ω|ξ|, which the dilatation multiplies.
+    volumetric: T,
+    /// α ω, which the extension multiplies.
+    deviatoric: T,
+}
+
 impl<T: Real, const D: usize> ScalarState<T, D> for LinearSolid {
-    /// (ω, ω|ξ|).
-    type BondConst = (T, T);
+    type BondConst = LinearBond<T>;
     /// 1/m.
     type NodeConst = T;
     type FamilyConst = ();
@@ -82,29 +92,40 @@ impl<T: Real, const D: usize> ScalarState<T, D> for LinearSolid {
     fn density(&self, _: usize) -> f64 {
         self.density
     }
-    fn bond_const(&self, xi: &SVector<f64, D>, scale: Scale) -> (T, T) {
+    fn bond_const(&self, xi: &SVector<f64, D>, scale: Scale) -> LinearBond<T> {
         let omega = self.influence.weight(xi.norm() / scale.horizon);
-        (T::of(omega), T::of(omega * xi.norm()))
+        let sum = omega * xi.norm();
+        LinearBond {
+            sum: T::of(sum),
+            volumetric: T::of((D as f64 * self.kappa - self.alpha / D as f64) * sum),
+            deviatoric: T::of(self.alpha * omega),
+        }
     }
     fn node_const(
         &self,
-        family: &Neighbourhood<'_, (BondLength<T>, (T, T)), D>,
+        family: &Neighbourhood<'_, (BondLength<T>, LinearBond<T>), D>,
     ) -> CoreResult<(T, ())> {
-        let m = family.sum(|m| m.bond.1.0.to_f64() * m.xi.norm_squared());
+        let m = family.sum(|m| m.bond.1.sum.to_f64() * m.xi.norm());
         weighted_volume(m, family.node, self.dimension == D).map(|m| (T::of(1.0 / m), ()))
     }
     #[inline(always)]
-    fn add(&self, sum: &mut T, e: T, k: &(T, T), volume: T) {
-        *sum += k.1 * e * volume;
+    fn add(&self, sum: &mut T, bond: &Bond<T, D>, e: T, k: &LinearBond<T>, volume: T) {
+        *sum = bond.fma(e, k.sum * volume, *sum);
     }
     #[inline(always)]
     fn close(&self, sum: &T, inverse_m: &T, (): &()) -> T {
         T::of(D as f64) * *inverse_m * *inverse_m * *sum
     }
     #[inline(always)]
-    fn scalar_force(&self, e: T, k: &(T, T), inverse_m: &T, state: &T) -> T {
-        let volumetric = T::of(D as f64 * self.kappa - self.alpha / D as f64);
-        volumetric * *state * k.1 + T::of(self.alpha) * *inverse_m * k.0 * e
+    fn line(
+        &self,
+        _: &Bond<T, D>,
+        weight: T,
+        k: &LinearBond<T>,
+        inverse_m: &T,
+        state: &T,
+    ) -> (Option<T>, T) {
+        (Some(*state * (k.volumetric * weight)), *inverse_m * (k.deviatoric * weight))
     }
 }
 
@@ -112,13 +133,13 @@ impl<T: Real, const D: usize> ScalarState<T, D> for LinearSolid {
 /// 002-11, 002-22).
 impl<T: Real, const D: usize> SplitState<T, D> for LinearSolid {
     #[inline(always)]
-    fn energy_parts(&self, e: T, length: T, k: &(T, T), inverse_m: &T, state: &T) -> (T, T) {
+    fn energy_parts(&self, e: T, length: T, k: &LinearBond<T>, inverse_m: &T, state: &T) -> (T, T) {
         let theta = self.dilatation(*inverse_m, *state);
-        let weight = T::of(0.5) * k.0 * *inverse_m;
+        let half = T::of(0.5) * *inverse_m;
         let deviatoric = e - theta * length * T::of(1.0 / D as f64);
         (
-            weight * T::of(self.kappa) * theta * theta * length * length,
-            weight * T::of(self.alpha) * deviatoric * deviatoric,
+            half * k.sum * length * T::of(self.kappa) * theta * theta,
+            half * k.deviatoric * deviatoric * deviatoric,
         )
     }
 }
@@ -218,16 +239,16 @@ impl<T: Real, const D: usize> ScalarState<T, D> for MadenciOterkus {
         weighted_volume(1.0, family.node, self.dimension == D).map(|_| ((), ()))
     }
     #[inline(always)]
-    fn add(&self, sum: &mut T, e: T, k: &(T, T), volume: T) {
-        *sum += k.0 * e * volume;
+    fn add(&self, sum: &mut T, bond: &Bond<T, D>, e: T, k: &(T, T), volume: T) {
+        *sum = bond.fma(e, k.0 * volume, *sum);
     }
     #[inline(always)]
     fn close(&self, sum: &T, (): &(), (): &()) -> T {
         T::of(2.0 * self.a()) * *sum
     }
     #[inline(always)]
-    fn scalar_force(&self, e: T, k: &(T, T), (): &(), state: &T) -> T {
-        k.0 * *state + k.1 * e
+    fn line(&self, _: &Bond<T, D>, weight: T, k: &(T, T), (): &(), state: &T) -> (Option<T>, T) {
+        (Some(k.0 * weight * *state), k.1 * weight)
     }
 }
 

@@ -41,8 +41,15 @@ pub trait ScalarState<T: Real, const D: usize>: Send + Sync {
     }
     /// Adds the extension `e` of a bond to the family sum.
     #[inline(always)]
-    fn add(&self, sum: &mut Self::FamilySum, e: T, k: &Self::BondConst, volume: T) {
-        let _ = (sum, e, k, volume);
+    fn add(
+        &self,
+        sum: &mut Self::FamilySum,
+        bond: &Bond<T, D>,
+        e: T,
+        k: &Self::BondConst,
+        volume: T,
+    ) {
+        let _ = (sum, bond, e, k, volume);
     }
     /// State of a node.
     #[inline(always)]
@@ -55,14 +62,29 @@ pub trait ScalarState<T: Real, const D: usize>: Send + Sync {
         let _ = (sum, constants, family);
         Record::zero()
     }
+    /// The scalar force state t = a + b e, times `weight`, as (a, b); `None` for a = 0. Constants of
+    /// the bond times the weight are the same for a whole block of a lattice: multiply them first.
+    fn line(
+        &self,
+        bond: &Bond<T, D>,
+        weight: T,
+        k: &Self::BondConst,
+        constants: &Self::NodeConst,
+        state: &Self::NodeState,
+    ) -> (Option<T>, T);
     /// Scalar force state t of a bond with extension `e`.
+    #[inline(always)]
     fn scalar_force(
         &self,
+        bond: &Bond<T, D>,
         e: T,
         k: &Self::BondConst,
         constants: &Self::NodeConst,
         state: &Self::NodeState,
-    ) -> T;
+    ) -> T {
+        let (a, b) = self.line(bond, T::one(), k, constants, state);
+        a.map_or(b * e, |a| bond.fma(b, e, a))
+    }
 }
 
 /// A model whose bond energy splits into that of volume change and that of shape change.
@@ -112,6 +134,7 @@ where
     type FamilySum = S::FamilySum;
     type NodeState = S::NodeState;
     const LINEAR: bool = K::LINEAR;
+    const STRETCH: bool = K::STRETCH;
 
     fn density(&self, node: usize) -> f64 {
         self.model.density(node)
@@ -132,8 +155,8 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, Self::BondConst, S::NodeConst, ()>,
     ) {
-        let (e, _) = K::extension_and_direction(bond, end.bond.0);
-        self.model.add(sum, e, &end.bond.1, end.volume);
+        let e = K::extension(bond, end.bond.0);
+        self.model.add(sum, bond, e, &end.bond.1, end.volume);
     }
     #[inline(always)]
     fn node_state(
@@ -151,21 +174,38 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>,
     ) -> SVector<T, D> {
-        let (e, m) = K::extension_and_direction(bond, end.bond.0);
-        m * self.model.scalar_force(e, &end.bond.1, end.node, end.state)
+        let (a, b) = self.model.line(bond, T::one(), &end.bond.1, end.node, end.state);
+        let (t, m) = K::force(bond, end.bond.0, a, b);
+        m * t
     }
-    /// (t βV + t' β'V) M: both ends share e and M.
     #[inline(always)]
     fn pair_force(
         &self,
         bond: &Bond<T, D>,
         ends: [End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>; 2],
     ) -> SVector<T, D> {
-        let (e, m) = K::extension_and_direction(bond, ends[0].bond.0);
-        let t = |end: &End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>| {
-            self.model.scalar_force(e, &end.bond.1, end.node, end.state) * end.volume
+        let mut sum = SVector::zeros();
+        self.add_pair_force(&mut sum, bond, ends);
+        sum
+    }
+    /// (t βV + t' β'V) M: both ends share e and M, and t is a line in e at both.
+    #[inline(always)]
+    fn add_pair_force(
+        &self,
+        sum: &mut SVector<T, D>,
+        bond: &Bond<T, D>,
+        [near, far]: [End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>; 2],
+    ) {
+        let line = |end: &End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>| {
+            self.model.line(bond, end.volume, &end.bond.1, end.node, end.state)
         };
-        m * (t(&ends[0]) + t(&ends[1]))
+        let ((a0, b0), (a1, b1)) = (line(&near), line(&far));
+        let a = match (a0, a1) {
+            (Some(a0), Some(a1)) => Some(a0 + a1),
+            (a0, a1) => a0.or(a1),
+        };
+        let (t, m) = K::force(bond, near.bond.0, a, b0 + b1);
+        bond.add_scaled(sum, t, &m);
     }
 }
 
@@ -181,8 +221,8 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>,
     ) -> T {
-        let (e, _) = K::extension_and_direction(bond, end.bond.0);
-        T::of(0.5) * e * self.model.scalar_force(e, &end.bond.1, end.node, end.state)
+        let e = K::extension(bond, end.bond.0);
+        T::of(0.5) * e * self.model.scalar_force(bond, e, &end.bond.1, end.node, end.state)
     }
 }
 
@@ -198,7 +238,7 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, Self::BondConst, S::NodeConst, S::NodeState>,
     ) -> (T, T) {
-        let (e, _) = K::extension_and_direction(bond, end.bond.0);
+        let e = K::extension(bond, end.bond.0);
         self.model.energy_parts(e, end.bond.0.length, &end.bond.1, end.node, end.state)
     }
 }

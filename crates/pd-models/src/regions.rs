@@ -57,6 +57,7 @@ where
     const FOLLOWS_DAMAGE: bool = M::FOLLOWS_DAMAGE;
     const LINEAR: bool = M::LINEAR;
     const CAN_FAULT: bool = M::CAN_FAULT;
+    const STRETCH: bool = M::STRETCH;
 
     fn density(&self, node: usize) -> f64 {
         if node >= self.region.len() {
@@ -230,6 +231,8 @@ where
     type FamilySum = (A::FamilySum, B::FamilySum);
     type NodeState = (A::NodeState, B::NodeState);
     const FOLLOWS_DAMAGE: bool = A::FOLLOWS_DAMAGE || B::FOLLOWS_DAMAGE;
+    const LINEAR: bool = A::LINEAR && B::LINEAR;
+    const STRETCH: bool = A::STRETCH || B::STRETCH;
     const CAN_FAULT: bool = A::CAN_FAULT || B::CAN_FAULT;
 
     fn density(&self, node: usize) -> f64 {

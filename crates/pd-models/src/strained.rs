@@ -6,7 +6,7 @@ use crate::elasticity::voigt::{stress_from_voigt, voigt_direction};
 use crate::kinematics::BondLength;
 use crate::ordinary::{Ordinary, ScalarState, SplitState};
 use nalgebra::{SMatrix, SVector};
-use pd_core::bond::{Member, Neighbourhood, Scale};
+use pd_core::bond::{Bond, Member, Neighbourhood, Scale};
 use pd_core::influence::Influence;
 use pd_core::material::{Material, StressState};
 use pd_core::{Real, Result as CoreResult};
@@ -87,9 +87,16 @@ where
         Ok((constants, (of_family, (self.stiffness * inverse).map(T::of))))
     }
     #[inline(always)]
-    fn add(&self, sum: &mut Self::FamilySum, e: T, k: &Self::BondConst, volume: T) {
-        self.model.add(&mut sum.0, e, &k.0, volume);
-        sum.1 += k.1 * (e * volume);
+    fn add(
+        &self,
+        sum: &mut Self::FamilySum,
+        bond: &Bond<T, D>,
+        e: T,
+        k: &Self::BondConst,
+        volume: T,
+    ) {
+        self.model.add(&mut sum.0, bond, e, &k.0, volume);
+        bond.add_scaled(&mut sum.1, e * volume, &k.1);
     }
     #[inline(always)]
     fn close(
@@ -101,14 +108,15 @@ where
         (self.model.close(&sum.0, constants, &family.0), family.1 * sum.1)
     }
     #[inline(always)]
-    fn scalar_force(
+    fn line(
         &self,
-        e: T,
+        bond: &Bond<T, D>,
+        weight: T,
         k: &Self::BondConst,
         constants: &S::NodeConst,
         state: &Self::NodeState,
-    ) -> T {
-        self.model.scalar_force(e, &k.0, constants, &state.0)
+    ) -> (Option<T>, T) {
+        self.model.line(bond, weight, &k.0, constants, &state.0)
     }
 }
 

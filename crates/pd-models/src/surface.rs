@@ -4,7 +4,7 @@ use crate::elasticity::Stiffness;
 use crate::kinematics::BondLength;
 use crate::ordinary::ScalarState;
 use nalgebra::SVector;
-use pd_core::bond::{Neighbourhood, Scale};
+use pd_core::bond::{Bond, Neighbourhood, Scale};
 use pd_core::record::Record;
 use pd_core::{Real, Result as CoreResult};
 
@@ -36,6 +36,7 @@ impl<S, const D: usize> OnFamily<S, D> {
     where
         S: ScalarState<T, D>,
     {
+        let bond = |xi: &SVector<f64, D>| Bond::new(xi.map(T::of), SVector::zeros());
         let (mut mixed, mut own) = (0.0, 0.0);
         for k in 0..D {
             for l in 0..D {
@@ -44,14 +45,15 @@ impl<S, const D: usize> OnFamily<S, D> {
                 let mut sum = S::FamilySum::zero();
                 for m in family.members {
                     let e = T::of(extension(&m.xi));
-                    self.model.add(&mut sum, e, &m.bond.1, T::of(m.volume));
+                    self.model.add(&mut sum, &bond(&m.xi), e, &m.bond.1, T::of(m.volume));
                 }
                 let state = self.model.close(&sum, constants, of_family);
                 for i in 0..D {
                     for j in 0..D {
                         let stress = family.sum(|m| {
                             let e = T::of(extension(&m.xi));
-                            let t = self.model.scalar_force(e, &m.bond.1, constants, &state);
+                            let (k, bond) = (&m.bond.1, bond(&m.xi));
+                            let t = self.model.scalar_force(&bond, e, k, constants, &state);
                             t.to_f64() * m.xi[i] * m.xi[j] / m.xi.norm()
                         });
                         mixed += stress * self.stiffness.c(i, j, k, l);
@@ -88,8 +90,8 @@ impl<T: Real, const D: usize, S: ScalarState<T, D>> ScalarState<T, D> for OnFami
         Ok(((T::of(g), constants.0), constants.1))
     }
     #[inline(always)]
-    fn add(&self, sum: &mut S::FamilySum, e: T, k: &S::BondConst, volume: T) {
-        self.model.add(sum, e, k, volume);
+    fn add(&self, sum: &mut S::FamilySum, bond: &Bond<T, D>, e: T, k: &S::BondConst, volume: T) {
+        self.model.add(sum, bond, e, k, volume);
     }
     #[inline(always)]
     fn close(
@@ -101,13 +103,15 @@ impl<T: Real, const D: usize, S: ScalarState<T, D>> ScalarState<T, D> for OnFami
         self.model.close(sum, &constants.1, family)
     }
     #[inline(always)]
-    fn scalar_force(
+    fn line(
         &self,
-        e: T,
+        bond: &Bond<T, D>,
+        weight: T,
         k: &S::BondConst,
-        constants: &(T, S::NodeConst),
+        (g, constants): &(T, S::NodeConst),
         state: &S::NodeState,
-    ) -> T {
-        constants.0 * self.model.scalar_force(e, k, &constants.1, state)
+    ) -> (Option<T>, T) {
+        let (a, b) = self.model.line(bond, weight, k, constants, state);
+        (a.map(|a| *g * a), *g * b)
     }
 }
