@@ -53,7 +53,7 @@ impl<T: Real> Sample<T> {
         Solid: Material<T, D, NodeConst = T, NodeState = T>,
     {
         let axis = |x: f64| SVector::<T, D>::from_fn(|d, _| T::of(if d == 0 { x } else { 0.0 }));
-        let bond = Bond { xi: axis(self.length), eta: axis(self.extension) };
+        let bond = Bond::new(axis(self.length), axis(self.extension));
         let xi = SVector::<f64, D>::from_fn(|d, _| if d == 0 { self.length } else { 0.0 });
         let constants = <Solid as Material<T, D>>::bond_const(
             &self.material,
@@ -190,7 +190,7 @@ fn openings<T: Real>() {
             SVector::<T, 3>::from_fn(|d, _| T::of(of(d)))
         };
         let get = |key: &str| case[key].as_f64().expect("number");
-        let bond = Bond { xi: vector("xi"), eta: vector("u_j") - vector("u_i") };
+        let bond = Bond::new(vector("xi"), vector("u_j") - vector("u_i"));
         let end = End { bond: &(), node: &(), state: &(), volume: T::one() };
         let tested = TestedBond {
             material: &Nothing,
