@@ -61,3 +61,37 @@ fn loads_that_make_no_sense() {
     assert!(matches!(error, Error::During { .. }), "{error}");
     assert!(error.to_string().contains("prescribed velocity [m/s] is NaN"), "{error}");
 }
+
+/// A law of constant stiffness, which may be nothing or NaN.
+struct Springs(f64);
+
+impl<T: Real, const D: usize> BondLaw<T, D> for Springs {
+    type Const = T;
+    fn density(&self) -> f64 {
+        1e3
+    }
+    fn bond_const(&self, xi: &SVector<f64, D>, _: Scale) -> T {
+        T::of(xi.norm())
+    }
+    fn force(&self, bond: &Bond<T, D>, length: &T) -> T {
+        T::of(self.0) * bond.extension(*length)
+    }
+}
+
+#[test]
+fn a_body_without_a_time_step() {
+    let run = |stiffness: f64, rule: TimeStep| {
+        let springs = BondBased(Springs(stiffness));
+        let mut body = Body::<f64, 2, _, _, _>::new(family(3.0), springs, NoDamage).expect("body");
+        Run::new(&mut body, Loads::new(), rule).map(|run| run.dt())
+    };
+    let error = run(f64::NAN, TimeStep::Safety(0.5)).expect_err("refused");
+    assert!(error.to_string().contains("force density of a small displacement"), "{error}");
+    assert!(run(f64::NAN, TimeStep::Fixed(1e-6)).is_err());
+    let error = run(0.0, TimeStep::Safety(0.5)).expect_err("refused");
+    assert!(error.to_string().contains("critical time step [s] is inf"), "{error}");
+    assert_eq!(run(0.0, TimeStep::Fixed(1e-6)), Ok(1e-6));
+    // A spring that pushes when it is pulled.
+    let error = run(-1e9, TimeStep::Safety(0.5)).expect_err("refused");
+    assert!(matches!(error, Error::UnstableBody { .. }), "{error}");
+}

@@ -187,9 +187,6 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
             scalar: PhantomData,
         };
         run.choose_time_step()?;
-        if let Some(found) = run.critical {
-            require_stable(run.body, &found)?;
-        }
         run.loads.place(run.body, 0.0);
         run.body.evaluate()?;
         run.loads.add_forces(run.body, 0.0);
@@ -205,12 +202,17 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
             return Ok(());
         }
         let found = spectrum(self.body)?;
+        if self.step == 0 {
+            require_stable(self.body, &found)?;
+        }
         let critical = found.critical_time_step();
         self.critical = Some(found);
         self.broken_at_refresh = self.body.broken_bonds();
         match self.rule {
             TimeStep::Safety(safety) => {
                 Error::check(safety <= 1.0, "time step safety factor", safety, "at most 1")?;
+                let need = "finite: without stiffness give TimeStep::Fixed";
+                Error::check(critical.is_finite(), "critical time step [s]", critical, need)?;
                 self.dt = safety * critical;
             }
             _ => {

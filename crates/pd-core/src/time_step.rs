@@ -82,9 +82,9 @@ pub fn spectrum<T: Real, const D: usize, B: Dynamics<T, D>>(body: &mut B) -> Res
 }
 
 /// Refuses a body with a clearly negative ω²: a motion that grows at any time step, like those of
-/// polynomial micromoduli of strongly anisotropic plies. `found` is the body's own spectrum; its
-/// lowest Ritz value is never below the true one, so nothing stable is refused. A body that is
-/// only slightly unstable may pass: ask the [`Symbol`].
+/// polynomial micromoduli of strongly anisotropic plies. `found` is the body's own spectrum; where
+/// forces derive from an energy its lowest Ritz value is never below the true one, so nothing
+/// stable is refused. A body that is only slightly unstable may pass: ask the [`Symbol`].
 ///
 /// # Errors
 /// [`Error::UnstableBody`] with ω² and the wave, and what the evaluation of forces reports.
@@ -133,14 +133,21 @@ fn lowest_motion<T: Real, const D: usize, B: Dynamics<T, D>>(
 }
 
 /// The wave vector k in 1/m, among those of a sampled Brillouin zone, that a motion has most of:
-/// largest |Σ y exp(−ik·x)|.
+/// largest |Σ y exp(−ik·x)| over the middle of the body, as wide as the samples can tell apart.
 fn dominant_wave<T: Real, const D: usize, B: Dynamics<T, D>>(
     body: &B,
     motion: &[SVector<f64, D>],
 ) -> SVector<f64, D> {
     use rayon::prelude::*;
     let (samples, unit) = (WAVES[usize::from(D == 3)], body.unit());
-    let places: Vec<SVector<f64, D>> = (0..body.nodes()).map(|i| body.position(i)).collect();
+    let n = body.nodes();
+    let middle = (0..n).map(|i| body.position(i)).sum::<SVector<f64, D>>() / n as f64;
+    let width = 0.5 * samples as f64 * unit;
+    let mut near: Vec<(SVector<f64, D>, SVector<f64, D>)> =
+        (0..n).map(|i| (body.position(i) - middle, motion[i])).collect();
+    if near.iter().filter(|(x, _)| x.amax() < width).count() > samples {
+        near.retain(|(x, _)| x.amax() < width);
+    }
     // D(−k) = D(k), so half of the zone is enough: the last component is not negative.
     let wave = |index: usize| {
         SVector::<f64, D>::from_fn(|d, _| {
@@ -151,7 +158,7 @@ fn dominant_wave<T: Real, const D: usize, B: Dynamics<T, D>>(
     };
     let content = |k: &SVector<f64, D>| {
         let (mut even, mut odd) = (SVector::<f64, D>::zeros(), SVector::<f64, D>::zeros());
-        for (x, y) in places.iter().zip(motion) {
+        for (x, y) in &near {
             let (sin, cos) = k.dot(x).sin_cos();
             even += y * cos;
             odd += y * sin;
@@ -210,6 +217,8 @@ fn lanczos<T: Real, const D: usize, B: Dynamics<T, D>>(
             w[i] -= q[i] * alpha + previous[i] * back;
         }
         let beta = dot(&w, &w).sqrt();
+        let what = "force density of a small displacement of the body";
+        Error::check(beta.is_finite(), what, beta, "finite")?;
         found.alphas.push(alpha);
         found.betas.push(beta);
         let exhausted = beta <= 1e-12 * found.alphas[0].abs().max(alpha.abs());
