@@ -64,13 +64,14 @@ pub mod prelude {
     pub use pd_core::family::{Family, Horizon};
     pub use pd_core::grid::{Grid, NodeSet, NodeSets};
     pub use pd_core::influence::{Influence, InfluenceFunction};
-    pub use pd_core::integrator::{SymplecticEuler, VelocityVerlet};
+    pub use pd_core::integrator::{Integrator, SymplecticEuler, VelocityVerlet};
     pub use pd_core::lattice::Lattice;
     pub use pd_core::loads::Loads;
     pub use pd_core::material::{EnergySplit, Material, StrainEnergy, StressState};
     pub use pd_core::points::Points;
     pub use pd_core::quadrature::Quadrature;
     pub use pd_core::region::{Ball, Cuboid, Cylinder, Disc, Shape, Within};
+    pub use pd_core::relaxation::{DynamicRelaxation, Relaxed};
     pub use pd_core::run::{Energies, Flow, Observer, Run, TimeStep, View, reaction};
     pub use pd_core::shape::{IllConditioned, ShapePolicy};
     pub use pd_core::symbol::{Stability, Symbol};
