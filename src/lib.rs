@@ -79,7 +79,8 @@ pub mod prelude {
     pub use pd_damage::{
         AnyOf, BondEnergy, BondModel, BondStrength, CrackOpening, CrackPath, CrackPlane,
         CriterionExt, CriticalStretch, Either, FractureEnergy, FractureToughness, Interfaces,
-        ModeEnergies, PowerLaw, Separated, Signs, Strengths, TsaiHill, TsaiHill3,
+        Measures, Mirror, ModeEnergies, PowerLaw, Separated, Signs, Strengths, TipTrack, TsaiHill,
+        TsaiHill3,
     };
     pub use pd_models::{
         BondBased, BondLaw, Constitutive, Correspondence, Isotropic, Lamina, LinearElastic,
