@@ -26,7 +26,7 @@ const MM: f64 = 1e-3;
 const FOLDER: &str = "out/zhao_plates";
 /// Fracture energies in J/m²: of the slow plate and of the fast ones.
 const SLOW_ENERGY: f64 = 5e4;
-const FAST_ENERGY: f64 = 1e5;
+const FAST_ENERGY: f64 = 4e5;
 /// Speed of each end of the fast plates in m/s.
 const SPEED: f64 = 20.0;
 
@@ -102,7 +102,8 @@ fn other(error: impl std::fmt::Display) -> Error {
 
 /// What was seen of a plate.
 struct Seen {
-    /// When each tip had grown by 2 Δx, and when it came within 3 mm of an edge.
+    /// When the first bond within 3 Δx of each tip broke, and when the tip came within 3 mm of an
+    /// edge.
     started: Vec<f64>,
     arrived: Vec<f64>,
     /// The cracks when the first tip arrived.
@@ -141,18 +142,21 @@ where
     let start = damage(&body);
     let (tips, reach) = (&scene.tips, 0.5 * scene.size[0] - 3.0 * MM);
     let (mut started, mut arrived) = (vec![f64::NAN; tips.len()], vec![f64::NAN; tips.len()]);
+    let dx = body.family().unit();
+    let within = |tip: &Place| body.family().grid().select(|x| (x - tip).norm() < 3.0 * dx);
+    let near: Vec<NodeSet> = tips.iter().map(|(tip, _)| within(tip)).collect();
     let mut read: Option<(CrackPath<2>, Vec<(Place, f64)>)> = None;
     let gained = |body: &Plate<C>| -> Vec<(Place, f64)> {
         (0..body.nodes()).map(|i| (body.position(i), body.damage(i) - start[i])).collect()
     };
     let loads = Loads::new().velocity(&top, 1, SPEED).velocity(&bottom, 1, -SPEED);
     let mut run = Run::new(&mut body, loads, TimeStep::Safety(0.6))?;
-    while run.time() < 60e-6 && arrived.iter().any(|t| t.is_nan()) {
-        run.steps_more(4)?;
+    while run.time() < 90e-6 && arrived.iter().any(|t| t.is_nan()) {
+        run.steps_more(2)?;
         let cracks = CrackPath::of(run.body(), &start);
         for (k, (tip, ahead)) in tips.iter().enumerate() {
             let now = cracks.tip(tip, ahead);
-            if started[k].is_nan() && (now - tip).norm() > 2.0 * cracks.spacing() {
+            if started[k].is_nan() && near[k].iter().any(|i| run.body().damage(i) > start[i]) {
                 started[k] = run.time();
             }
             if arrived[k].is_nan() && now[0].abs() > reach {
@@ -190,18 +194,17 @@ where
 {
     let start = damage(&body);
     let step = 0.5e-4 * scene.size[1];
-    let loads = Loads::new().clamp::<2>(&bottom).displacement(&top, 0, 0.0).displacement(
-        &top,
-        1,
-        move |t: f64| step * t,
-    );
+    let loads = Loads::new()
+        .displacement(&top.union(&bottom), 0, 0.0)
+        .displacement(&top, 1, move |t: f64| 0.5 * step * t)
+        .displacement(&bottom, 1, move |t: f64| -0.5 * step * t);
     let scheme = DynamicRelaxation::new();
     let mut run = Run::with_integrator(&mut body, loads, TimeStep::Safety(0.8), scheme)?;
     let (mut started, mut peak) = (vec![f64::NAN; 2], 0.0_f64);
     // Straight to the strain at which nothing has broken yet.
     for k in 20..200 {
         let time = f64::from(k);
-        run.relax(time, 2e-3, 100_000)?;
+        run.relax(time, 2e-4, 200_000)?;
         let force = reaction(run.body(), &top)[1];
         peak = peak.max(force);
         let cracks = CrackPath::of(run.body(), &start);
@@ -335,8 +338,8 @@ fn study<C>(
 where
     C: DamageCriterion<f64, 2, Ordinary<MadenciOterkus>>,
 {
-    let slow = effort.choose(2.0, 1.0, 0.5) * MM;
-    let fast = effort.choose(1.0, 0.5, 0.25) * MM;
+    let slow = effort.choose(1.0, 1.0, 0.5) * MM;
+    let fast = effort.choose(0.5, 0.5, 0.25) * MM;
     for offset in [0.0, 10.0, 20.0] {
         let scene = Scene::notched(offset);
         let seen = relax(&scene, scene.body(slow, SLOW_ENERGY, &criterion)?, label)?;
@@ -355,6 +358,8 @@ where
         starts.push(seen.started[1]);
         inclined(&scene, lefm, &seen, label, table);
     }
+    let micro: Vec<f64> = starts.iter().map(|t| t * 1e6).collect();
+    println!("3_inclined {label}: starts at {micro:.2?} µs");
     let order = starts[0] < starts[1] && starts[1] < starts[2];
     table.hard(&format!("3_inclined {label}: start at 30° before 45° before 60°"), order);
     let mut ratios = Vec::new();
