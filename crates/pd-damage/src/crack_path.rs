@@ -2,7 +2,9 @@
 //! branches, mirror error, tip and its speed.
 //!
 //! A flat, fully separated pair of faces reads about 0.41 in the first row of nodes at m = 3 and
-//! 0.2 in the second, so nodes that lost 0.35 or more of their family lie on a crack.
+//! 0.2 in the second, so nodes that lost 0.35 or more of their family lie on a crack. Other
+//! horizons read otherwise ([`CrackPlane::face_damage`](crate::CrackPlane::face_damage)): give 0.85
+//! of what an open face has there.
 
 use nalgebra::SVector;
 use pd_core::Dynamics;
@@ -48,8 +50,16 @@ pub struct LineFit {
 impl<const D: usize> CrackPath<D> {
     /// From positions and the damage each node has gained beyond its pre-crack.
     pub fn new(spacing: f64, nodes: impl Iterator<Item = (usize, SVector<f64, D>, f64)>) -> Self {
+        Self::above(SEPARATED, spacing, nodes)
+    }
+    /// The same with another damage from which on a node counts as separated.
+    pub fn above(
+        threshold: f64,
+        spacing: f64,
+        nodes: impl Iterator<Item = (usize, SVector<f64, D>, f64)>,
+    ) -> Self {
         let nodes: Vec<Separated<D>> = nodes
-            .filter(|n| n.2 >= SEPARATED)
+            .filter(|n| n.2 >= threshold)
             .map(|(node, position, damage)| Separated { node, position, damage })
             .collect();
         let component = components(&nodes, 1.5 * spacing);

@@ -53,6 +53,13 @@ fn digits(x: f64) -> String {
     }
 }
 
+/// A bound without the noise of its last digits.
+fn bound(x: f64) -> String {
+    let size = if x == 0.0 { 0.0 } else { x.abs().log10().floor() };
+    let unit = 10_f64.powf(size - 5.0);
+    format!("{}", ((x / unit).round() * unit * 1e9).round() / 1e9)
+}
+
 impl Measures {
     /// An empty table; `command` is what prints it.
     pub fn new(title: &str, command: &str) -> Self {
@@ -87,19 +94,19 @@ impl Measures {
     }
     fn near(&mut self, demand: Demand, measure: &str, got: f64, at: f64, tol: f64) -> &mut Self {
         let pass = (got - at).abs() <= tol;
-        self.add(demand, measure, &format!("{at} ± {tol}"), &digits(got), pass)
+        self.add(demand, measure, &format!("{} ± {}", bound(at), bound(tol)), &digits(got), pass)
     }
     /// A measure that must be at most `most`.
     pub fn hard_most(&mut self, measure: &str, got: f64, most: f64) -> &mut Self {
-        self.add(Demand::Hard, measure, &format!("≤ {most}"), &digits(got), got <= most)
+        self.add(Demand::Hard, measure, &format!("≤ {}", bound(most)), &digits(got), got <= most)
     }
     /// A measure that is to be at most `most`.
     pub fn soft_most(&mut self, measure: &str, got: f64, most: f64) -> &mut Self {
-        self.add(Demand::Soft, measure, &format!("≤ {most}"), &digits(got), got <= most)
+        self.add(Demand::Soft, measure, &format!("≤ {}", bound(most)), &digits(got), got <= most)
     }
     /// A measure that must be at least `least`.
     pub fn hard_least(&mut self, measure: &str, got: f64, least: f64) -> &mut Self {
-        self.add(Demand::Hard, measure, &format!("≥ {least}"), &digits(got), got >= least)
+        self.add(Demand::Hard, measure, &format!("≥ {}", bound(least)), &digits(got), got >= least)
     }
     /// A statement that must hold.
     pub fn hard(&mut self, statement: &str, holds: bool) -> &mut Self {
