@@ -66,15 +66,14 @@ fn pull(depth: f64, dx: f64, table: &mut Measures) -> Result<()> {
     let mut run = Run::new(&mut body, Loads::new(), TimeStep::Safety(0.25))?;
     let mut seen: Vec<Broken> = Vec::new();
     let (mut joint_at, mut tip_at) = (None, None);
-    let mut front = Vec::new();
-    let mut share_at_20 = None;
+    // Shares of bonds that join the plies: of the first 200 or so, and when the front is 20 mm on.
+    let (mut first, mut share_at_20) = (f64::NAN, None);
     while run.time() < END {
         run.steps_more(5)?;
         let body = run.body();
         // Which bonds are broken now, by their lower node; the list only grows.
         let was = seen.len();
         seen.clear();
-        let mut reach = f64::NEG_INFINITY;
         for node in (0..body.nodes()).filter(|&i| body.damage(i) > start[i]) {
             let x = body.position(node);
             body.neighbours(node, |n| {
@@ -85,9 +84,6 @@ fn pull(depth: f64, dx: f64, table: &mut Measures) -> Result<()> {
                 }
                 let joining = region[node] != region[n.node];
                 let place = (x + y) * 0.5;
-                if joining {
-                    reach = reach.max(place[0]);
-                }
                 seen.push(Broken { place, joining, lower: !joining && region[node] == 0 });
             });
         }
@@ -102,25 +98,16 @@ fn pull(depth: f64, dx: f64, table: &mut Measures) -> Result<()> {
         if tip_at.is_none() && seen.iter().any(|b| near_tip(&b)) {
             tip_at = Some(time);
         }
-        if was < 200 && seen.len() >= 200 || was == 0 {
-            let joining = seen.iter().filter(|b| b.joining).count();
-            println!("{label}: {joining} of the first {} bonds join the plies", seen.len());
-            if seen.len() >= 200 || was == 0 {
-                let share = joining as f64 / seen.len() as f64;
-                front.push((0.0, share));
-            }
+        let joining = seen.iter().filter(|b| b.joining).count() as f64 / seen.len() as f64;
+        if was < 200 {
+            first = joining;
         }
-        if share_at_20.is_none() && reach > left + CRACK + 20.0 * MM {
-            let joining = seen.iter().filter(|b| b.joining).count();
-            share_at_20 = Some((time, joining as f64 / seen.len() as f64));
+        let front = CrackPath::of(body, &start).tip(&tip, &Place::new(1.0, 0.0));
+        if share_at_20.is_none() && (front - tip)[0] > 20.0 * MM {
+            share_at_20 = Some((time, joining));
             let title = format!("{label}, {:.1} us", time * 1e6);
-            draw_damage(
-                body,
-                (15.0, [0, 1]),
-                |_| true,
-                &title,
-                format!("{FOLDER}/{label}_20mm.png"),
-            )?;
+            let file = format!("{FOLDER}/{label}_20mm.png");
+            draw_damage(body, (15.0, [0, 1]), |_| true, &title, file)?;
         }
     }
     drop(run);
@@ -128,7 +115,6 @@ fn pull(depth: f64, dx: f64, table: &mut Measures) -> Result<()> {
     draw_damage(&body, (15.0, [0, 1]), |_| true, &title, format!("{FOLDER}/{label}_end.png"))?;
 
     let name = |what: &str| format!("d = {} mm: {what}", depth / MM);
-    let first = front.last().map_or(f64::NAN, |f| f.1);
     let length = |mine: &dyn Fn(&&Broken) -> bool| {
         let ends = seen.iter().filter(mine).map(|b| b.place[0]);
         let (low, high) =
