@@ -89,6 +89,8 @@ pub use pd_models as models;
 
 #[cfg(feature = "io")]
 pub mod observe;
+#[cfg(feature = "io")]
+pub mod study;
 
 /// Everything a simulation needs.
 pub mod prelude {
@@ -103,13 +105,14 @@ pub mod prelude {
     pub use pd_core::family::{Family, Horizon};
     pub use pd_core::grid::{Grid, NodeSet, NodeSets};
     pub use pd_core::influence::{Influence, InfluenceFunction};
-    pub use pd_core::integrator::{SymplecticEuler, VelocityVerlet};
+    pub use pd_core::integrator::{Integrator, SymplecticEuler, VelocityVerlet};
     pub use pd_core::lattice::Lattice;
     pub use pd_core::loads::Loads;
     pub use pd_core::material::{EnergySplit, Material, StrainEnergy, StressState};
     pub use pd_core::points::Points;
     pub use pd_core::quadrature::Quadrature;
     pub use pd_core::region::{Ball, Cuboid, Cylinder, Disc, Shape, Within};
+    pub use pd_core::relaxation::{DynamicRelaxation, Relaxed};
     pub use pd_core::run::{Energies, Flow, Margin, Observer, Run, TimeStep, View, reaction};
     pub use pd_core::shape::{IllConditioned, ShapePolicy};
     pub use pd_core::statics::{Solved, Statics};
@@ -119,7 +122,8 @@ pub mod prelude {
     pub use pd_damage::{
         AnyOf, BondEnergy, BondModel, BondStrength, CrackOpening, CrackPath, CrackPlane, CrackTip,
         CriterionExt, CriticalStretch, Either, FractureEnergy, FractureToughness, Interfaces,
-        ModeEnergies, PowerLaw, Separated, Signs, Strengths, TsaiHill, TsaiHill3,
+        Measures, Mirror, ModeEnergies, PowerLaw, Separated, Signs, Strengths, TipTrack, TsaiHill,
+        TsaiHill3,
     };
     pub use pd_models::{
         BondAssociated, BondBased, BondLaw, Constitutive, Correspondence, Isotropic, Lamina,

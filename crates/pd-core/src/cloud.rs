@@ -548,6 +548,16 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
             *mark.get_mut() = 0;
         }
     }
+    fn copy_bits(bits: &CloudBits) -> CloudBits {
+        let CloudBits { bytes, row, marks } = bits;
+        let marks = marks.iter().map(|x| AtomicU8::new(x.load(Relaxed))).collect();
+        CloudBits { bytes: bytes.clone(), row: row.clone(), marks }
+    }
+    fn copy_marks(bits: &mut CloudBits, other: &CloudBits) {
+        for (mark, from) in bits.marks.iter_mut().zip(&other.marks) {
+            *mark.get_mut() = from.load(Relaxed);
+        }
+    }
     fn neighbours(
         &self,
         node: usize,

@@ -268,6 +268,19 @@ pub enum Error {
         /// What happened.
         source: Box<Error>,
     },
+    /// A relaxation has not come to rest.
+    #[error(
+        "after {steps} steps of relaxation the forces out of balance are {residual:e} of the loads \
+         (asked for: {tolerance:e}): allow more steps, or a body that falls apart has no equilibrium"
+    )]
+    NotRelaxed {
+        /// Steps taken.
+        steps: usize,
+        /// Forces out of balance over the loads.
+        residual: f64,
+        /// The ratio asked for.
+        tolerance: f64,
+    },
     /// Bonds of a body without damage cannot be cut.
     #[error(
         "this body holds no bond bits (NoDamage): make it with Precracked or Breaking to cut bonds"

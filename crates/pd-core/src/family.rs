@@ -158,6 +158,10 @@ pub trait Family<T: Real, const D: usize>: Send + Sync + Sized {
     fn marked(&self, bits: &Self::Bits, visit: &mut dyn FnMut(usize));
     /// Clears the marks.
     fn clear_marks(bits: &mut Self::Bits);
+    /// A copy of the bits, to compare with what is left later.
+    fn copy_bits(bits: &Self::Bits) -> Self::Bits;
+    /// Marks in `bits` the nodes that are marked in `other`, and no others.
+    fn copy_marks(bits: &mut Self::Bits, other: &Self::Bits);
     /// Visits the neighbours of `node` in ascending order, broken ones too.
     fn neighbours(
         &self,

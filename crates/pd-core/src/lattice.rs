@@ -733,6 +733,17 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
             *mark.get_mut() = 0;
         }
     }
+    fn copy_bits(bits: &LatticeBits) -> LatticeBits {
+        let copy =
+            |from: &[AtomicU8]| from.iter().map(|x| AtomicU8::new(x.load(Relaxed))).collect();
+        let LatticeBits { bytes, half, full, marks } = bits;
+        LatticeBits { bytes: bytes.clone(), half: *half, full: copy(full), marks: copy(marks) }
+    }
+    fn copy_marks(bits: &mut LatticeBits, other: &LatticeBits) {
+        for (mark, from) in bits.marks.iter_mut().zip(&other.marks) {
+            *mark.get_mut() = from.load(Relaxed);
+        }
+    }
     fn neighbours(
         &self,
         node: usize,

@@ -275,6 +275,28 @@ impl Bound {
         }
         power
     }
+    /// Sums of squares of the reactions of the supports and of the body forces, (f V)² and (b V)²
+    /// in N², at time `time`.
+    pub fn squares<T: Real, const D: usize>(
+        &self,
+        body: &impl Dynamics<T, D>,
+        time: f64,
+    ) -> (f64, f64) {
+        let unit = body.unit();
+        let sum = |loads: &[BoundLoad], value: &dyn Fn(&BoundLoad, usize) -> f64| -> f64 {
+            let of = |load: &BoundLoad| -> f64 {
+                load.sites.iter().map(|s| (value(load, s.site) * s.volume).powi(2)).sum()
+            };
+            loads.iter().map(of).sum()
+        };
+        let force =
+            |load: &BoundLoad, site: usize| body.force().get(site)[load.axis].to_f64() / unit;
+        (sum(&self.supports, &force), sum(&self.forces, &|load, _| load.value.at(time)))
+    }
+    /// Number of prescribed velocities.
+    pub fn velocities(&self) -> usize {
+        self.supports.iter().filter(|load| load.kind == Kind::Velocity).count()
+    }
     /// Kinetic energy of the prescribed components in J.
     pub fn support_kinetic_energy<T: Real, const D: usize>(
         &self,

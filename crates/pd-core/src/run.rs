@@ -1,11 +1,12 @@
 //! The time loop: loads, steps, guards and observers.
 
-use crate::body::{Body, BreakEvents, Dynamics};
+use crate::body::{Body, Dissipated, Dissipation, Dynamics};
 use crate::damage::DamagePolicy;
-use crate::family::{Family, Tally};
+use crate::family::Family;
 use crate::integrator::{Clock, Integrator, VelocityVerlet};
 use crate::loads::{Bound, Loads};
 use crate::material::StrainEnergy;
+use crate::relaxation::{DynamicRelaxation, Relaxed};
 use crate::time_step::{Spectrum, require_stable, spectrum};
 use crate::{Error, Real, Result};
 use std::fmt;
@@ -76,6 +77,14 @@ impl fmt::Display for Margin {
     }
 }
 
+impl Energies {
+    /// Kinetic energy over kinetic and strain energy: below about 0.01 a run is quasi-static.
+    pub fn kinetic_share(&self) -> f64 {
+        let sum = self.kinetic + self.strain;
+        if sum > 0.0 { self.kinetic / sum } else { 0.0 }
+    }
+}
+
 /// What an observer sees.
 pub struct View<'a, B> {
     /// The body.
@@ -108,21 +117,12 @@ impl<B, F: FnMut(&View<'_, B>) -> Result<Flow>> Observer<B> for F {
 }
 
 /// Accounts for energies; only built for materials that have one.
-struct Account<B> {
+struct Account<'a, B> {
     strain_energy: fn(&B) -> f64,
-    energies: Energies,
-    before: f64,
+    dissipated: Box<dyn Dissipated<B> + 'a>,
+    external: f64,
     power: f64,
     support_kinetic: f64,
-}
-
-impl<B> BreakEvents<B> for Account<B> {
-    fn before(&mut self, body: &B) {
-        self.before = (self.strain_energy)(body);
-    }
-    fn after(&mut self, body: &B, _: Tally) {
-        self.energies.dissipated += self.before - (self.strain_energy)(body);
-    }
 }
 
 /// A run of a body through time.
@@ -143,7 +143,7 @@ pub struct Run<'a, T: Real, const D: usize, B, I = VelocityVerlet<T>> {
     time: f64,
     step: usize,
     observers: Vec<(usize, Box<dyn Observer<B> + 'a>)>,
-    account: Option<Account<B>>,
+    account: Option<Account<'a, B>>,
     scalar: PhantomData<T>,
 }
 
@@ -256,7 +256,8 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
         Some(Energies {
             kinetic: kinetic_energy(self.body),
             strain: (account.strain_energy)(self.body),
-            ..account.energies
+            external: account.external,
+            dissipated: account.dissipated.total(),
         })
     }
 
@@ -327,7 +328,10 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
         self.loads.require_finite(clock.time, clock.dt).map_err(located)?;
         let tally = match &mut self.account {
             Some(account) => {
-                self.integrator.step(self.body, &self.loads, clock, account).map_err(located)?
+                account.dissipated.start(self.dt);
+                self.integrator
+                    .step(self.body, &self.loads, clock, &mut *account.dissipated)
+                    .map_err(located)?
             }
             None => {
                 self.integrator.step(self.body, &self.loads, clock, &mut ()).map_err(located)?
@@ -338,7 +342,7 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
         if let Some(account) = &mut self.account {
             let power = self.loads.power(self.body, self.time);
             let inertia = self.loads.support_kinetic_energy(self.body);
-            account.energies.external +=
+            account.external +=
                 0.5 * (account.power + power) * self.dt + (inertia - account.support_kinetic);
             account.power = power;
             account.support_kinetic = inertia;
@@ -391,12 +395,64 @@ where
     pub fn with_energies(mut self) -> Self {
         self.account = Some(Account {
             strain_energy: |body| body.strain_energy(),
-            energies: Energies::default(),
-            before: 0.0,
+            dissipated: Box::new(Dissipation::default()),
+            external: 0.0,
             power: self.loads.power(self.body, self.time),
             support_kinetic: self.loads.support_kinetic_energy(self.body),
         });
         self
+    }
+}
+
+impl<T: Real, const D: usize, B: Dynamics<T, D>> Run<'_, T, D, B, DynamicRelaxation<T, D>> {
+    /// Relaxes to equilibrium under the loads of time `time` and breaks bonds there until none
+    /// breaks any more: one load step. Equilibrium is where the forces out of balance are at most
+    /// `tolerance` times the largest loads so far (root of the sum of squares, reactions and body
+    /// forces).
+    ///
+    /// Bonds are tested in equilibrium only, so that no overshoot of the relaxation breaks them.
+    /// Observers are called once at the end; they count load steps by [`View::step`].
+    ///
+    /// # Errors
+    /// [`Error::NotRelaxed`] after `most` steps, [`Error::InvalidValue`] for a prescribed velocity
+    /// (prescribe the displacement), and what the evaluation of forces and the observers report.
+    pub fn relax(&mut self, time: f64, tolerance: f64, most: usize) -> Result<Relaxed> {
+        Error::positive("tolerance of the residual", tolerance)?;
+        let moving = self.loads.velocities();
+        let need = "0 in a relaxation: prescribe displacements";
+        Error::check(moving == 0, "number of prescribed velocities", moving as f64, need)?;
+        let before = self.body.broken_bonds();
+        if before > self.broken_at_refresh && matches!(self.rule, TimeStep::Safety(_)) {
+            self.choose_time_step()?;
+        }
+        self.step += 1;
+        self.time = time;
+        self.integrator.restart(self.body);
+        // The load step is placed first; forces of the first step are those of the new loads.
+        self.loads.place(self.body, time);
+        self.body.evaluate()?;
+        self.loads.add_forces(self.body, time);
+        for steps in 1..=most {
+            let clock = Clock { step: steps, time: time - self.dt, dt: self.dt };
+            let located = |error: Error| error.at(steps, time);
+            self.integrator.advance(self.body, &self.loads, clock, None).map_err(located)?;
+            let residual = self.integrator.residual(self.body, &self.loads, time);
+            if !residual.is_finite() {
+                self.guard()?;
+            }
+            if residual <= tolerance {
+                let tally = self.body.evaluate_and_break(0, &mut ()).map_err(located)?;
+                self.loads.add_forces(self.body, time);
+                if tally.broken == 0 {
+                    let broken = self.body.broken_bonds() - before;
+                    self.call_observers(time)?;
+                    return Ok(Relaxed { steps, residual, broken });
+                }
+                self.integrator.restart(self.body);
+            }
+        }
+        let residual = self.integrator.residual(self.body, &self.loads, time);
+        Err(Error::NotRelaxed { steps: most, residual, tolerance })
     }
 }
 

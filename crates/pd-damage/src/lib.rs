@@ -5,12 +5,14 @@ pub mod combine;
 pub mod crack_opening;
 pub mod crack_path;
 pub mod critical_stretch;
+pub mod measures;
 pub mod tsai_hill;
 
 pub use bond_energy::{BondEnergy, ModeEnergies, PowerLaw, Separated, Uniform};
 pub use calibration::{BondModel, BondStrength, CrackPlane, FractureEnergy, FractureToughness};
 pub use combine::{AnyOf, CriterionExt, Either, Interfaces, Sparing};
 pub use crack_opening::CrackOpening;
-pub use crack_path::{CrackPath, CrackTip, LineFit};
+pub use crack_path::{CrackPath, CrackTip, LineFit, Mirror, TipTrack};
 pub use critical_stretch::CriticalStretch;
+pub use measures::Measures;
 pub use tsai_hill::{Signs, Strengths, Strengths3, TsaiHill, TsaiHill3};

@@ -1,0 +1,112 @@
+//! What studies share: how large a run is, and pictures of damage.
+
+use nalgebra::SVector;
+use pd_core::shape::{IllConditioned, ShapePolicy};
+use pd_core::{Body, DamagePolicy, Error, Family, Material, Real, Result};
+use pd_io::{ColourMap, FieldMap};
+use pd_models::{Correspondence, LinearElastic, SillingControl, Stiffness};
+use std::path::Path;
+
+/// How much work a study takes, from its arguments: `--short` (seconds), nothing (about a minute
+/// on two cores), `--full` (the resolution of the paper).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effort {
+    /// Seconds: does it run?
+    Short,
+    /// About a minute.
+    Default,
+    /// As long as it takes.
+    Full,
+}
+
+impl Effort {
+    /// From the program's arguments.
+    pub fn from_arguments() -> Self {
+        let given = |name: &str| std::env::args().any(|argument| argument == name);
+        match (given("--short"), given("--full")) {
+            (true, _) => Self::Short,
+            (_, true) => Self::Full,
+            _ => Self::Default,
+        }
+    }
+    /// One of three values.
+    pub fn choose<X>(self, short: X, default: X, full: X) -> X {
+        match self {
+            Self::Short => short,
+            Self::Default => default,
+            Self::Full => full,
+        }
+    }
+}
+
+/// A correspondence ply for plates that crack along their fibres: the linear influence function, and
+/// a weak control of zero-energy modes on the scale of `soft`, the modulus across the fibres in Pa
+/// (one with the fibre's stiffness hinders the sliding along the fibres that a split is made of).
+/// Nodes whose shape tensor has a condition number above 5 carry no stress: what is left of their
+/// family says too little about the strain.
+///
+/// # Errors
+/// A density or modulus that is not positive.
+pub fn cracking_ply(
+    stiffness: Stiffness<2>,
+    density: f64,
+    soft: f64,
+) -> pd_models::Result<Correspondence<LinearElastic<2>, SillingControl>> {
+    let linear = pd_core::InfluenceFunction::Linear;
+    Ok(Correspondence::new(LinearElastic(stiffness), density, linear)?
+        .with_control(SillingControl::new(0.5 * soft, 0.3)?)
+        .with_shape_policy(ShapePolicy { rule: IllConditioned::Detach, limit: 5.0 }))
+}
+
+/// Damage index of every node.
+pub fn damage<T, const D: usize, F, M, P>(body: &Body<T, D, F, M, P>) -> Vec<f64>
+where
+    T: Real,
+    F: Family<T, D>,
+    M: Material<T, D>,
+    P: DamagePolicy<T, D, M>,
+{
+    (0..body.nodes()).map(|node| body.damage(node)).collect()
+}
+
+/// Draws the damage of the nodes that `shown` selects at their deformed places in the plane of
+/// two axes, displacements enlarged by `scale`. Nodes without any bond left are not drawn: they
+/// fly away.
+///
+/// # Errors
+/// [`Error::Other`] with the path if it cannot be written.
+pub fn draw_damage<T, const D: usize, F, M, P>(
+    body: &Body<T, D, F, M, P>,
+    (scale, axes): (f64, [usize; 2]),
+    shown: impl Fn(&SVector<f64, D>) -> bool,
+    title: &str,
+    path: impl AsRef<Path>,
+) -> Result<()>
+where
+    T: Real,
+    F: Family<T, D>,
+    M: Material<T, D>,
+    P: DamagePolicy<T, D, M>,
+{
+    let (mut places, mut damage) = (Vec::new(), Vec::new());
+    for node in (0..body.nodes()).filter(|&node| shown(&body.position(node))) {
+        let value = body.damage(node);
+        if value < 1.0 {
+            let x = body.position(node) + scale * body.displacement(node);
+            places.push(SVector::<f64, 2>::new(x[axes[0]], x[axes[1]]));
+            damage.push(value);
+        }
+    }
+    let path = path.as_ref();
+    if let Some(folder) = path.parent() {
+        let told = |e: std::io::Error| Error::Other(format!("{}: {e}", folder.display()));
+        std::fs::create_dir_all(folder).map_err(told)?;
+    }
+    FieldMap::new(&places, 1.15 * body.family().unit(), &damage)
+        .title(title)
+        .range(0.0, 1.0)
+        .colours(ColourMap::Damage)
+        .size(700)
+        .write(path)
+        .map_err(|e| Error::Other(e.to_string()))
+}
