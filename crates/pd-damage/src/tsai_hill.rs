@@ -81,9 +81,9 @@ impl Limits {
     }
 }
 
-/// sin²ψ₀ of [`TsaiHill::with_bridging_fibres`], ψ₀ = 17.5°: on a square lattice some bond lies
-/// closer to any fibre, and no bond of the next direction does.
-const BRIDGING: f64 = 0.09;
+/// sin²ψ₀ of [`TsaiHill::with_bridging_fibres`], ψ₀ = 30°: every fibre has bonds of a square lattice
+/// well within that.
+const BRIDGING: f64 = 0.25;
 
 /// What the matrix part of the criterion weighs for a bond at the angle ψ to the fibre, from
 /// cos²ψ: min(1, sin²ψ/sin²ψ₀) where fibres bridge, else 1.
@@ -122,7 +122,7 @@ impl TsaiHill {
         Ok(Self { limits: Limits::new(strengths, signs)?, cos, sin, bridging: false })
     }
     /// Matrix failure spares the bonds along the fibre: the terms of σ_T and τ weigh
-    /// min(1, sin²ψ/sin²ψ₀), ψ₀ = 17.5°, for a bond at the angle ψ to the fibre. A matrix crack
+    /// min(1, sin²ψ/sin²ψ₀), ψ₀ = 30°, for a bond at the angle ψ to the fibre. A matrix crack
     /// runs between fibres and severs what crosses it. As printed (the default) it severs the
     /// fibres too, so that a crack may run on straight through them.
     #[must_use]
