@@ -231,7 +231,7 @@ fn crack<M: StressState<f64, 2>>(scene: &Scene, material: M, criterion: TsaiHill
     let start = damage(&body);
     let (mut reading, mut first, mut frame) = (None, f64::NAN, 0);
     let mut shares = Shares::new(criterion);
-    let mut run = Run::new(&mut body, Loads::new(), TimeStep::Safety(0.4))?;
+    let mut run = Run::new(&mut body, Loads::new(), TimeStep::Safety(0.2))?;
     run.observe(10, Progress::new("plate"));
     run.observe(
         10,
@@ -243,7 +243,7 @@ fn crack<M: StressState<f64, 2>>(scene: &Scene, material: M, criterion: TsaiHill
         100,
         FieldOutput::create(folder, "plate", snapshot_with_stress::<f64, 2, _, _, _>)?,
     );
-    run.observe(5, |view: &View<'_, Plate<M>>| {
+    run.observe(2, |view: &View<'_, Plate<M>>| {
         if first.is_nan() && view.body.broken_bonds() > 0 {
             first = view.time;
         }
