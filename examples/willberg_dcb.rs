@@ -200,7 +200,7 @@ fn open<M: StrainEnergy<f64, 3>>(
         let off = (e.external - e.kinetic - e.strain - e.dissipated) / e.external;
         table.hard_most(&name("energy out of balance"), off.abs(), 0.01);
         println!(
-            "{label}: {steps} steps, {:.1} mm grown, w_C·area {:.3} J/m² dissipated per area",
+            "{label}: {steps} steps, {:.1} mm grown, {:.3} J/m² dissipated per area",
             l.growth / MM,
             e.dissipated / (WIDTH * l.growth)
         );

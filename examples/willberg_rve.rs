@@ -199,7 +199,7 @@ fn judge(label: &str, seen: &Outcome, centres: &[Place], dx: f64, table: &mut Me
 fn main() -> Result<()> {
     let effort = Effort::from_arguments();
     let seed = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(1);
-    let dx = effort.choose(0.5, 0.5, 0.25) * MM;
+    let dx = effort.choose(1.0, 0.5, 0.25) * MM;
     let centres = fibres(seed)?;
     let command = "cargo run --release --example willberg_rve";
     let mut table = Measures::new("Fibres in resin (Willberg §6)", command);

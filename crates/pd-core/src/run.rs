@@ -411,7 +411,8 @@ impl<T: Real, const D: usize, B: Dynamics<T, D>> Run<'_, T, D, B, DynamicRelaxat
     /// forces).
     ///
     /// Bonds are tested in equilibrium only, so that no overshoot of the relaxation breaks them.
-    /// Observers are called once at the end; they count load steps by [`View::step`].
+    /// Observers are called once at the end; they count load steps by [`View::step`]. Energies are not
+    /// accounted for.
     ///
     /// # Errors
     /// [`Error::NotRelaxed`] after `most` steps, [`Error::InvalidValue`] for a prescribed velocity
