@@ -136,6 +136,7 @@ fn errors(got: &[Intensity], reference: &[Intensity]) -> (f64, f64) {
 
 /// Stress intensity by finite elements (500 × 500 quads, least squares over the opening behind the
 /// tip) at the times of [`SEEN`]: fibre angle, K_I and K_II in MPa√m.
+#[allow(clippy::approx_constant)] // 3.14 is a stress intensity
 const ANGLES: [(f64, [f64; 7], [f64; 7]); 5] = [
     (0.0, [3.84, 10.98, 16.86, 15.61, 9.60, 9.98, 12.33], [0.0; 7]),
     (
