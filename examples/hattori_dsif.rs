@@ -136,6 +136,7 @@ fn errors(got: &[Intensity], reference: &[Intensity]) -> (f64, f64) {
 
 /// Stress intensity by finite elements (500 × 500 quads, least squares over the opening behind the
 /// tip) at the times of [`SEEN`]: fibre angle, K_I and K_II in MPa√m.
+#[allow(clippy::approx_constant)] // 3.14 is a stress intensity
 const ANGLES: [(f64, [f64; 7], [f64; 7]); 5] = [
     (0.0, [3.84, 10.98, 16.86, 15.61, 9.60, 9.98, 12.33], [0.0; 7]),
     (
@@ -201,7 +202,7 @@ fn main() -> Outcome {
         study.times.iter().zip(k).map(|(t, k)| (t * 1e6, pick(k) / 1e6)).collect()
     };
     let titles = ["K_I of an edge crack, fibres at 30°", "K_II of an edge crack, fibres at 30°"];
-    let mut plots = titles.map(|title| LinePlot::new(title, "t [µs]", "K [MPa√m]"));
+    let mut plots = titles.map(|title| LinePlot::new(title, "t [µs]", "MPa sqrt(m)"));
     let mut add = |name: &str, k: &[Intensity]| {
         plots[0] = plots[0].clone().line(name, &curve(k, |k| k.i));
         plots[1] = plots[1].clone().line(name, &curve(k, |k| k.ii));
@@ -232,7 +233,7 @@ fn main() -> Outcome {
                         at_200 = Some([near.0, far.0]);
                     }
                     if cells <= 200 {
-                        add(&format!("{cells}², m = {m}"), &history.k[1]);
+                        add(&format!("{cells} x {cells}, m = {m}"), &history.k[1]);
                     }
                 }
                 Err(error) => {
@@ -257,7 +258,7 @@ fn main() -> Outcome {
         let (i, ii) = errors(&history.k[1], &study.fem[1]);
         reported("  with Silling's control, r = 5 mm: K_I", i);
         reported("  with Silling's control, r = 5 mm: K_II", ii);
-        add("200², m = 3, controlled", &history.k[1]);
+        add("200 x 200, m = 3, controlled", &history.k[1]);
     }
     // The paper's time step against the stable limit.
     let cells = effort.pick(60, 100, 200);

@@ -1,6 +1,7 @@
 //! What the examples of this folder share: command line and printing.
 #![allow(dead_code)]
 
+use peridynamics::core::statics::Progress;
 use std::io::Write as _;
 
 /// Result of an example.
@@ -67,7 +68,7 @@ pub fn compared(name: &str, reference: f64, got: f64) {
 }
 
 /// A progress line for a static solution.
-pub fn watch(label: &str) -> impl FnMut(pd_progress::Progress) + '_ {
+pub fn watch(label: &str) -> impl FnMut(Progress) + '_ {
     move |p| {
         if p.iteration % 50 == 0 {
             let _ = write!(
@@ -79,8 +80,6 @@ pub fn watch(label: &str) -> impl FnMut(pd_progress::Progress) + '_ {
         }
     }
 }
-
-use peridynamics::core::statics as pd_progress;
 
 /// Ends a progress line.
 pub fn done() {
