@@ -225,8 +225,10 @@ fn models<T: Real>(report: &mut Report) {
     macro_rules! both {
         ($name:literal, $model2:expr, $model3:expr, $lattice:literal, $cloud:literal) => {{
             let name = concat!($name, ", lattice");
-            report.measure(name, $lattice, || Body::new(lattice::<T, 2>(&flat), $model2, stretch()));
-            report.measure(name, $lattice, || Body::new(lattice::<T, 3>(&deep), $model3, stretch()));
+            report
+                .measure(name, $lattice, || Body::new(lattice::<T, 2>(&flat), $model2, stretch()));
+            report
+                .measure(name, $lattice, || Body::new(lattice::<T, 3>(&deep), $model3, stretch()));
             let name = concat!($name, ", cloud");
             report.measure(name, $cloud, || Body::new(cloud::<T, 3>(&deep), $model3, stretch()));
         }};
@@ -324,7 +326,8 @@ fn scaling(report: &mut Report) {
     report.say("| m | bonds per node | ns per bond |\n| --- | --- | --- |");
     for m in [1.5, 2.015, 3.015, 4.015, 5.015] {
         let family = Lattice::new(&grid(46), Horizon::Cells(m), Quadrature::None).expect("family");
-        let mut body = Body::<f64, 3, _, _, _>::new(family, lps(&quarter), stretch()).expect("body");
+        let mut body =
+            Body::<f64, 3, _, _, _>::new(family, lps(&quarter), stretch()).expect("body");
         wave(&mut body);
         let bonds = 2.0 * body.family().bonds() as f64;
         let per_node = bonds / body.nodes() as f64;

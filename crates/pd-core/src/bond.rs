@@ -114,11 +114,7 @@ impl<T: Real, const D: usize> Bond<T, D> {
             p = self.fma(p, t, T::STRETCH[k]);
         }
         let g = t * p;
-        let near = Stretch {
-            g,
-            strain: self.fma(-g, T::one() + t, t),
-            inverse: T::one() - g,
-        };
+        let near = Stretch { g, strain: self.fma(-g, T::one() + t, t), inverse: T::one() - g };
         if self.arithmetic.small {
             return near;
         }
@@ -248,7 +244,8 @@ mod tests {
         for sign in [-1.0, 1.0] {
             for k in 0..40_000 {
                 // Dense near the ends of the range, down to 1e-9.
-                let size = (Bond::<f64, 1>::SMALL * 0.999_999) * (-20.0 * k as f64 / 40_000.0).exp();
+                let size =
+                    (Bond::<f64, 1>::SMALL * 0.999_999) * (-20.0 * k as f64 / 40_000.0).exp();
                 let eta = (1.0 + sign * size).sqrt() - 1.0;
                 for (small, fused) in [(true, true), (true, false), (false, true), (false, false)] {
                     let path = Arithmetic { small, fused };

@@ -91,7 +91,8 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             strides[d] = if d == 1 { row.next_multiple_of(T::WIDTH) } else { row };
         }
         let margin: usize =
-            (0..D).map(|d| strides[d] * reaches[d]).sum::<usize>().next_multiple_of(T::WIDTH) + T::WIDTH;
+            (0..D).map(|d| strides[d] * reaches[d]).sum::<usize>().next_multiple_of(T::WIDTH)
+                + T::WIDTH;
         let inner: usize = (0..D).map(|d| strides[d] * (cells[d] - 1)).sum::<usize>() + 1;
         let sites = inner.next_multiple_of(T::WIDTH) + 2 * margin;
         Error::check(
@@ -343,7 +344,14 @@ fn fold<'a, T, const D: usize, Kn, I, J, const N: usize>(
     if full {
         for entry in offsets {
             add_lanes::<T, D, Kn, I, J, N, false>(
-                job, sums, (low, high), entry, 0, start, (near, own), arithmetic,
+                job,
+                sums,
+                (low, high),
+                entry,
+                0,
+                start,
+                (near, own),
+                arithmetic,
             );
         }
     } else {
@@ -351,7 +359,14 @@ fn fold<'a, T, const D: usize, Kn, I, J, const N: usize>(
             let there = job.there::<N>(start, o);
             if there != 0 {
                 add_lanes::<T, D, Kn, I, J, N, true>(
-                    job, sums, (low, high), entry, there, start, (near, own), arithmetic,
+                    job,
+                    sums,
+                    (low, high),
+                    entry,
+                    there,
+                    start,
+                    (near, own),
+                    arithmetic,
                 );
             }
         }
@@ -423,7 +438,12 @@ where
         let mut sums = <Kn::Sum as Record<T>>::lanes::<N>();
         let (mut low, mut high) = ([T::zero(); N], [T::zero(); N]);
         fold::<T, D, Kn, I, J, N>(
-            job, &mut sums, (&mut low, &mut high), (start, full), (&near, &own_block), small,
+            job,
+            &mut sums,
+            (&mut low, &mut high),
+            (start, full),
+            (&near, &own_block),
+            small,
         );
         if Kn::STRETCH {
             let mut small = true;
@@ -433,7 +453,12 @@ where
             if !small {
                 let exact = Arithmetic { small: false, fused };
                 fold::<T, D, Kn, I, J, N>(
-                    job, &mut sums, (&mut low, &mut high), (start, false), (&near, &own_block), exact,
+                    job,
+                    &mut sums,
+                    (&mut low, &mut high),
+                    (start, false),
+                    (&near, &own_block),
+                    exact,
                 );
             }
         }
@@ -563,7 +588,8 @@ where
             *index = std::array::from_fn(|l| {
                 let eta = relative(&near, &far, l);
                 let bond = Bond::of_kernel(offset.xi, eta, offset.inverse_square, arithmetic);
-                let (own, other) = (I::lane::<LANES>(&own_block, l), I::lane::<LANES>(&other_block, l));
+                let (own, other) =
+                    (I::lane::<LANES>(&own_block, l), I::lane::<LANES>(&other_block, l));
                 job.test.index(&bond, pair, [&own, &other])
             });
             if *byte != 0xff {

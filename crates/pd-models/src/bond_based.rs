@@ -129,14 +129,7 @@ impl<T: Real, const D: usize> ScalarState<T, D> for PmbOnFamily {
         Ok((T::of(if sum > 0.0 { 0.5 * self.0.modulus / sum } else { 0.0 }), ()))
     }
     #[inline(always)]
-    fn line(
-        &self,
-        _: &Bond<T, D>,
-        weight: T,
-        k: &T,
-        half_c: &T,
-        (): &(),
-    ) -> (Option<T>, T) {
+    fn line(&self, _: &Bond<T, D>, weight: T, k: &T, half_c: &T, (): &()) -> (Option<T>, T) {
         (None, *half_c * (*k * weight))
     }
 }

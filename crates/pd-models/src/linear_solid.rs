@@ -227,14 +227,7 @@ impl<T: Real, const D: usize> ScalarState<T, D> for MadenciOterkus {
         T::of(2.0 * self.a()) * *sum
     }
     #[inline(always)]
-    fn line(
-        &self,
-        _: &Bond<T, D>,
-        weight: T,
-        k: &(T, T),
-        (): &(),
-        state: &T,
-    ) -> (Option<T>, T) {
+    fn line(&self, _: &Bond<T, D>, weight: T, k: &(T, T), (): &(), state: &T) -> (Option<T>, T) {
         (Some(k.0 * weight * *state), k.1 * weight)
     }
 }
