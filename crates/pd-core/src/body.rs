@@ -478,19 +478,15 @@ where
     }
     /// As [`update_states`](Self::update_states), also with stretches a linear material ignores.
     fn update_states_and(&mut self, track: bool) -> T {
-        if Self::CAN_TRACK {
-            if track {
-                return self.update_states::<true>(Visit::All);
-            }
+        if Self::CAN_TRACK && track {
+            return self.update_states::<true>(Visit::All);
         }
         self.update_states::<false>(Visit::All)
     }
     /// As [`update_forces`](Self::update_forces), also with stretches a linear material ignores.
     fn update_forces_and(&mut self, track: bool) -> T {
-        if Self::CAN_TRACK {
-            if track {
-                return self.update_forces::<true>(Visit::All);
-            }
+        if Self::CAN_TRACK && track {
+            return self.update_forces::<true>(Visit::All);
         }
         self.update_forces::<false>(Visit::All)
     }

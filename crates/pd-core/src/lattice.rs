@@ -298,8 +298,7 @@ fn add_lanes<'a, T, const D: usize, Kn, I, J, const N: usize, const MASKED: bool
     (low, high): (&mut [T; N], &mut [T; N]),
     (offset, k): (&Offset<T, D>, &Kn::Const),
     there: u32,
-    start: usize,
-    (near, own): (&Planes<'a, T, N>, &I::Block<N>),
+    (start, near, own): (usize, &Planes<'a, T, N>, &I::Block<N>),
     arithmetic: Arithmetic,
 ) where
     T: Real,
@@ -354,8 +353,7 @@ fn fold<'a, T, const D: usize, Kn, I, J, const N: usize>(
                 (low, high),
                 entry,
                 0,
-                start,
-                (near, own),
+                (start, near, own),
                 arithmetic,
             );
         }
@@ -369,8 +367,7 @@ fn fold<'a, T, const D: usize, Kn, I, J, const N: usize>(
                     (low, high),
                     entry,
                     there,
-                    start,
-                    (near, own),
+                    (start, near, own),
                     arithmetic,
                 );
             }

@@ -113,9 +113,7 @@ impl<T: Real> Record<T> for T {
     fn read_lanes<const N: usize>(planes: &&mut [T], i: usize) -> [T; N] {
         let slots = &planes[i..i + N];
         let mut lanes = [T::zero(); N];
-        for l in 0..N {
-            lanes[l] = slots[l];
-        }
+        lanes.copy_from_slice(slots);
         lanes
     }
     #[inline(always)]

@@ -3,7 +3,7 @@
 use crate::Result;
 use crate::elasticity::Stiffness;
 use crate::elasticity::voigt::voigt_direction;
-use crate::kinematics::BondLength;
+use crate::kinematics::{BondLength, product};
 use crate::linear_solid::weighted_volume;
 use crate::ordinary::ScalarState;
 use nalgebra::{Matrix6, SMatrix, SVector};
@@ -221,7 +221,7 @@ impl<T: Real, const D: usize, const S: usize> ScalarState<T, D> for PolynomialMi
     }
     #[inline(always)]
     fn close(&self, sum: &SVector<T, S>, inverse_m: &T, (): &()) -> SVector<T, S> {
-        self.lambda.map(T::of) * *sum * (*inverse_m * *inverse_m)
+        product(&self.lambda.map(T::of), sum) * (*inverse_m * *inverse_m)
     }
     #[inline(always)]
     fn line(
@@ -408,7 +408,7 @@ impl<T: Real, const D: usize, const V: usize> ScalarState<T, D> for PositiveSpli
     }
     #[inline(always)]
     fn close(&self, sum: &SVector<T, V>, _: &T, spread: &SMatrix<T, V, V>) -> SVector<T, V> {
-        spread * *sum
+        product(spread, sum)
     }
     #[inline(always)]
     fn line(

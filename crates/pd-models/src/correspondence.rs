@@ -2,6 +2,7 @@
 
 use crate::elasticity::Stiffness;
 use crate::elasticity::voigt::small_strain;
+use crate::kinematics::product;
 use crate::{Error, Result};
 use nalgebra::{SMatrix, SVector};
 use pd_core::bond::{Bond, End, Neighbourhood, Scale};
@@ -36,23 +37,6 @@ pub trait Constitutive<T: Real, const D: usize>: Send + Sync {
 pub trait Hyperelastic<T: Real, const D: usize>: Constitutive<T, D> {
     /// W in Pa.
     fn energy(&self, h: &SMatrix<T, D, D>) -> T;
-}
-
-/// A B in plain loops, which vectorise over nodes.
-#[inline(always)]
-fn product<T: Real, const D: usize, const N: usize>(
-    a: &SMatrix<T, D, D>,
-    b: &SMatrix<T, D, N>,
-) -> SMatrix<T, D, N> {
-    let mut product = SMatrix::<T, D, N>::zeros();
-    for j in 0..N {
-        for k in 0..D {
-            for i in 0..D {
-                product[(i, j)] += a[(i, k)] * b[(k, j)];
-            }
-        }
-    }
-    product
 }
 
 /// Σ A_ij B_ij.

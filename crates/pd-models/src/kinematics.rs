@@ -1,6 +1,6 @@
 //! Kinematics of a bond: finite (the papers' nonlinear form) or linearised.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 use pd_core::Real;
 use pd_core::bond::Bond;
 
@@ -87,4 +87,21 @@ impl Kinematics for Linearised {
         let e = bond.dot(&bond.eta, &n);
         (a.map_or(b * e, |a| bond.fma(b, e, a)), n)
     }
+}
+
+/// A B in plain loops, which vectorise over nodes.
+#[inline(always)]
+pub(crate) fn product<T: Real, const D: usize, const N: usize>(
+    a: &SMatrix<T, D, D>,
+    b: &SMatrix<T, D, N>,
+) -> SMatrix<T, D, N> {
+    let mut product = SMatrix::<T, D, N>::zeros();
+    for j in 0..N {
+        for k in 0..D {
+            for i in 0..D {
+                product[(i, j)] += a[(i, k)] * b[(k, j)];
+            }
+        }
+    }
+    product
 }
