@@ -92,7 +92,7 @@ fn measure<const D: usize, M: Material<f64, D>>(
 }
 
 fn main() -> Outcome {
-    let effort = Effort::given();
+    let effort = Effort::from_arguments();
     let stiffness = Stiffness::<2>::lamina(&GLASS_EPOXY)?.rotated(40_f64.to_radians());
     let polynomial = Ordinary::linearised(PolynomialMicromoduli::plane(&stiffness, 1e3, OMEGA)?);
     let split = Ordinary::linearised(PositiveSplit::plane(&stiffness, 1e3, OMEGA)?);
@@ -106,7 +106,7 @@ fn main() -> Outcome {
             ("correspondence", Study::run(members, |r| measure(&correspondence, &stiffness, r))?),
         ])
     };
-    let n = effort.pick(2, 3, 4);
+    let n = effort.choose(2, 3, 4);
     let spacings: Vec<f64> = [20.0, 40.0, 80.0, 160.0][..n].iter().map(|n| EDGE / n).collect();
     let delta = delta_convergence(3.0, &spacings)?;
     let m = m_convergence(EDGE / 10.0, &[3.0, 4.0, 5.0, 6.0, 8.0][..n + 1])?;
@@ -131,7 +131,7 @@ fn main() -> Outcome {
         match file {
             // The quadrature keeps the polynomial's stiffness wrong by the same share.
             "delta-convergence" => {
-                let tolerance = effort.pick(0.3, 0.15, 0.15);
+                let tolerance = effort.choose(0.3, 0.15, 0.15);
                 close_to("last order of the positive split", 2.0, tolerance, order(1));
                 close_to("last order of correspondence", 2.0, tolerance, order(2));
             }

@@ -122,8 +122,8 @@ fn standing_wave(stiffness: &Stiffness<2>, cells: usize) -> Outcome<f64> {
 }
 
 fn main() -> Outcome {
-    let effort = Effort::given();
-    let points = effort.pick(20, 80, 200);
+    let effort = Effort::from_arguments();
+    let points = effort.choose(20, 80, 200);
     let ply = Stiffness::<2>::lamina(&GRAPHITE_EPOXY)?;
     let moduli = steel()?;
     let third = Isotropic::from_young_poisson(moduli.young(), 1.0 / 3.0)?;
@@ -160,7 +160,7 @@ fn main() -> Outcome {
             at_most(&format!("{name}: speed of long waves"), *limit, deviation.long);
         }
     }
-    for cells in effort.pick(vec![12], vec![12, 24], vec![8, 12, 24, 48]) {
+    for cells in effort.choose(vec![12], vec![12, 24], vec![8, 12, 24, 48]) {
         let ratio = standing_wave(&ply, cells)?;
         let name = format!("run against symbol, wavelength of {cells} spacings");
         at_most(&name, 1e-3, (ratio - 1.0).abs());

@@ -87,9 +87,9 @@ fn circle<const D: usize, const V: usize>(
 }
 
 fn main() -> Outcome {
-    let effort = Effort::given();
-    let m = effort.pick(3.0, 10.0, 10.0);
-    let steps = effort.pick(20, 200, 200);
+    let effort = Effort::from_arguments();
+    let m = effort.choose(3.0, 10.0, 10.0);
+    let steps = effort.choose(20, 200, 200);
     let ply = Stiffness::<2>::lamina(&GRAPHITE_FABRIC_CARBON)?;
     let plate = Stiffness::<2>::isotropic(&steel()?, PlaneMode::PlaneStress)?;
     let plane = |c: &Stiffness<2>, family: &[(SVector<f64, 2>, f64)], m: f64| {
@@ -105,7 +105,7 @@ fn main() -> Outcome {
         close_to("  C_xxyy (classical 1.19 GPa) [Pa]", c1122, 6e6, got[(0, 1)]);
     }
     let family = bulk::<2>(m)?;
-    let limit = effort.pick(0.06, 3e-4, 3e-4);
+    let limit = effort.choose(0.06, 3e-4, 3e-4);
     for (title, c) in [("composite 2D", ply), ("steel 2D", plate)] {
         let worst = circle::<2, 3>(
             title,
@@ -118,7 +118,7 @@ fn main() -> Outcome {
 
     let solid = Stiffness::<3>::orthotropic(&GRAPHITE_FABRIC_CARBON_SOLID)?;
     let family = bulk::<3>(m)?;
-    let steps = effort.pick(20, 50, 200);
+    let steps = effort.choose(20, 50, 200);
     let worst = circle::<3, 6>(
         "composite 3D",
         steps,

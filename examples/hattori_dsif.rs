@@ -196,7 +196,7 @@ const PAPER: [(u32, [f64; 5]); 4] = [
 ];
 
 fn main() -> Outcome {
-    let effort = Effort::given();
+    let effort = Effort::from_arguments();
     let study = Study::new(30.0)?;
     let curve = |k: &[Intensity], pick: fn(&Intensity) -> f64| -> Vec<(f64, f64)> {
         study.times.iter().zip(k).map(|(t, k)| (t * 1e6, pick(k) / 1e6)).collect()
@@ -210,7 +210,7 @@ fn main() -> Outcome {
     add("finite elements, r = 5 mm", &study.fem[1]);
 
     // Table 1.
-    let cases: Vec<(u32, Vec<usize>)> = effort.pick(
+    let cases: Vec<(u32, Vec<usize>)> = effort.choose(
         vec![(60, vec![3])],
         vec![(200, vec![1, 2, 3])],
         PAPER.iter().map(|(cells, _)| (*cells, (1..=5).collect())).collect(),
@@ -245,7 +245,7 @@ fn main() -> Outcome {
         }
     }
 
-    over_the_angle(effort.pick(60, 200, 400))?;
+    over_the_angle(effort.choose(60, 200, 400))?;
     head();
     if let Some(error) = at_200 {
         at_most("K_I error (Eq. 38), 200², m = 3, r = 2 mm = 1.3 δ", 0.14, error[0]);
@@ -261,7 +261,7 @@ fn main() -> Outcome {
         add("200 x 200, m = 3, controlled", &history.k[1]);
     }
     // The paper's time step against the stable limit.
-    let cells = effort.pick(60, 100, 200);
+    let cells = effort.choose(60, 100, 200);
     let speed = (study.stiffness.c(1, 1, 1, 1) / GRAPHITE_EPOXY_DENSITY).sqrt();
     let careful = |horizon: f64| TimeStep::Unchecked(0.01 * horizon / speed);
     let none = peridynamics::models::NoControl;

@@ -90,8 +90,8 @@ fn hoop(solution: &Solution, stiffness: &Stiffness<2>, degrees: f64, window: f64
 }
 
 fn main() -> Outcome {
-    let effort = Effort::given();
-    let dx = effort.pick(5e-3, 1e-3, 1e-3);
+    let effort = Effort::from_arguments();
+    let dx = effort.choose(5e-3, 1e-3, 1e-3);
     let at_paper = dx == 1e-3;
     let fem = Displacements::read("scabbia64", ["ux", "uy"]);
     let stiffness = Stiffness::<2>::lamina(&GLASS_EPOXY)?.rotated(-25_f64.to_radians());
@@ -102,7 +102,7 @@ fn main() -> Outcome {
         ("paper", solve("paper", polynomial.clone(), dx)?),
         ("positive split", solve("positive split", split, dx)?),
     ];
-    if effort != Effort::Usual {
+    if effort != Effort::Default {
         let corrected = OnFamily::new(polynomial, &stiffness);
         runs.push(("polynomial, corrected", solve("polynomial, corrected", corrected, dx)?));
     }

@@ -80,8 +80,8 @@ fn draw(file: &str, title: &str, solution: &Solution, dx: f64) -> Outcome {
 }
 
 fn main() -> Outcome {
-    let effort = Effort::given();
-    let plate = effort.pick(
+    let effort = Effort::from_arguments();
+    let plate = effort.choose(
         Plate { dx: 5e-3, m: 5.0 },
         Plate { dx: 1e-3, m: 5.0 },
         Plate { dx: 1e-3, m: 5.0 },
@@ -101,7 +101,7 @@ fn main() -> Outcome {
         ("positive split, load in one row", plate.solve("split, one row", split, dx)?),
     ];
     let corrected = OnFamily::new(polynomial.clone(), &stiffness);
-    if effort != Effort::Usual {
+    if effort != Effort::Default {
         let name = "polynomial, load in one row";
         runs.push((name, plate.solve(name, polynomial, dx)?));
         let name = "polynomial, corrected";

@@ -52,8 +52,8 @@ fn solve<S: ScalarState<f64, 3>>(name: &str, model: S, dx: f64) -> Outcome<Solut
 }
 
 fn main() -> Outcome {
-    let effort = Effort::given();
-    let dx = effort.pick(15e-3, 10e-3, 10e-3);
+    let effort = Effort::from_arguments();
+    let dx = effort.choose(15e-3, 10e-3, 10e-3);
     let fem = Displacements::read("scabbia65", ["ux_free", "uy_free", "uz_free"]);
     let stiffness = pps_carbon()?.rotated_about_z(30_f64.to_radians());
     let polynomial = PolynomialMicromoduli::solid(&stiffness, 1e3, InfluenceFunction::Gaussian)?;

@@ -56,9 +56,9 @@ fn waves(ply: &Lamina, degrees: f64, r: f64, samples: usize) -> Outcome<Waves> {
 }
 
 fn main() -> Outcome {
-    let effort = Effort::given();
-    let samples = effort.pick(24, 48, 120);
-    let ratios: Vec<f64> = effort.pick(
+    let effort = Effort::from_arguments();
+    let samples = effort.choose(24, 48, 120);
+    let ratios: Vec<f64> = effort.choose(
         vec![0.0, 4.0],
         vec![0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0],
         vec![0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 64.0],

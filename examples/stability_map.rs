@@ -67,10 +67,10 @@ fn softest(e: &Extremes<2>) -> (f64, f64) {
 }
 
 fn main() -> Outcome {
-    let effort = Effort::given();
-    let samples = effort.pick(24, 60, 120);
-    let step = effort.pick(45, 15, 5);
-    let ratios: &[f64] = effort.pick(&[3.0], &[2.0, 3.0, 5.0], &[2.0, 3.0, 4.0, 5.0, 6.0]);
+    let effort = Effort::from_arguments();
+    let samples = effort.choose(24, 60, 120);
+    let step = effort.choose(45, 15, 5);
+    let ratios: &[f64] = effort.choose(&[3.0], &[2.0, 3.0, 5.0], &[2.0, 3.0, 4.0, 5.0, 6.0]);
     let angles: Vec<f64> = (0..=90).step_by(step).map(f64::from).collect();
 
     head();

@@ -173,15 +173,16 @@ fn hole(name: &str, ply: &Lamina, column: &str, degrees: f64, dx: f64, limit: f6
 }
 
 fn main() -> Outcome {
-    let effort = Effort::given();
-    let dx = A / effort.pick(8.0, 20.0, 40.0);
-    let limit = effort.pick(0.15, 0.05, 0.03);
+    let effort = Effort::from_arguments();
+    let dx = A / effort.choose(8.0, 20.0, 40.0);
+    let limit = effort.choose(0.15, 0.05, 0.03);
     // Isotropic to a thousandth: the closed form needs distinct roots.
     let steel = Lamina { e1: 200e9, e2: 200.2e9, g12: 200e9 / 2.6, nu12: 0.3 };
     println!("Δx = {} mm, m = {M}", dx * 1e3);
     head();
     crack("isotropic", &steel, 0.0, dx, limit)?;
-    for degrees in effort.pick(vec![30.0], vec![0.0, 30.0, 90.0], vec![0.0, 30.0, 45.0, 60.0, 90.0])
+    for degrees in
+        effort.choose(vec![30.0], vec![0.0, 30.0, 90.0], vec![0.0, 30.0, 45.0, 60.0, 90.0])
     {
         crack("graphite-epoxy", &GRAPHITE_EPOXY, degrees, dx, limit)?;
     }

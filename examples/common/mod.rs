@@ -1,42 +1,12 @@
-//! What the examples of this folder share: command line and printing.
+//! What the examples of this folder share: printing.
 #![allow(dead_code)]
 
 use peridynamics::core::statics::Progress;
+pub use peridynamics::study::Effort;
 use std::io::Write as _;
 
 /// Result of an example.
 pub type Outcome<X = ()> = std::result::Result<X, Box<dyn std::error::Error>>;
-
-/// Resolution asked for on the command line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Effort {
-    /// `--short`: seconds, to see that it runs.
-    Short,
-    /// Nothing: about a minute.
-    Usual,
-    /// `--full`: what the paper does, or more.
-    Full,
-}
-
-impl Effort {
-    /// From the arguments of the program.
-    pub fn given() -> Self {
-        let has = |name: &str| std::env::args().any(|a| a == name);
-        match (has("--full"), has("--short")) {
-            (true, _) => Self::Full,
-            (_, true) => Self::Short,
-            _ => Self::Usual,
-        }
-    }
-    /// One of three values.
-    pub fn pick<X>(self, short: X, usual: X, full: X) -> X {
-        match self {
-            Self::Short => short,
-            Self::Usual => usual,
-            Self::Full => full,
-        }
-    }
-}
 
 /// Prints the head of a table of measures.
 pub fn head() {
