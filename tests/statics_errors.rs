@@ -57,7 +57,8 @@ fn an_unstable_material() {
     let model = PolynomialMicromoduli::plane(&stiffness, 1e3, common::OMEGA).expect("material");
     let material = Ordinary::linearised(model);
     let symbol = Symbol::of(&material, 1e-3, Horizon::Cells(3.0), Quadrature::Exact);
-    assert!(matches!(symbol.expect("symbol").stability(), Stability::Unstable(_)));
+    let symbol = symbol.expect("symbol");
+    assert!(matches!(symbol.stability(), Stability::Unstable(_)));
     let family =
         Lattice::<f64, 2>::new(&grid(), Horizon::Cells(3.0), Quadrature::Exact).expect("family");
     let mut body = Body::new(family, material, NoDamage).expect("body");
@@ -66,9 +67,13 @@ fn an_unstable_material() {
     let load = grid().select(|x| x[0] > 8e-3 && x[1] > 0.0);
     let loads = Loads::new().clamp::<2>(&left).body_force(&load, 0, 1e9);
     let error = Statics::new().solve(&mut body, loads).expect_err("indefinite");
-    let Error::IndefiniteOperator { curvature, .. } = error else { panic!("{error}") };
-    assert!(curvature < 0.0);
     assert!(error.to_string().contains("Symbol::of"), "{error}");
+    let Error::IndefiniteOperator { curvature, wave, .. } = error else { panic!("{error}") };
+    assert!(curvature < 0.0);
+    // The wave it names is one that the infinite lattice amplifies.
+    let wave = SVector::<f64, 2>::from_column_slice(&wave);
+    let softest = symbol.eigen(&wave).map(|mode| mode.eigenvalue).into_iter().fold(1.0, f64::min);
+    assert!(softest < 0.0, "{wave}: {softest}");
     let x = grid().position(7);
     assert!((body.displacement(7) - x * 1e-3).norm() < 1e-12, "the body keeps its displacements");
 }

@@ -218,9 +218,9 @@ pub enum Error {
     /// A static problem whose operator is not positive definite.
     #[error(
         "the static operator is not positive definite: the direction of iteration {iteration}, \
-         largest at node {node}, has the curvature pᵀKp/pᵀp = {curvature:e} Pa/m². Either the \
-         material amplifies short waves (`Symbol::of(…).stability()` names the wave; the positive \
-         split has none), or it has zero-energy modes (add a control), or a part hangs by too few \
+         largest at node {node}, has the curvature pᵀKp/pᵀp = {curvature:e} Pa/m²; the body's softest \
+         motion is most like the wave k = {wave:?} 1/m. Either the material amplifies that wave \
+         (`Symbol::of(…).stability()` tells; the positive split amplifies none), or it has zero-energy modes (add a control), or a part hangs by too few \
          bonds"
     )]
     IndefiniteOperator {
@@ -228,6 +228,8 @@ pub enum Error {
         curvature: f64,
         /// The node where p is largest.
         node: usize,
+        /// Wave vector in 1/m that the body's softest motion has most of.
+        wave: Vec<f64>,
         /// Iterations done.
         iteration: usize,
     },

@@ -17,6 +17,7 @@
 use crate::body::{Dynamics, axpy, sum_in_order};
 use crate::field::{Field, map_sites};
 use crate::loads::{Bound, Loads};
+use crate::time_step::softest_wave;
 use crate::{Error, Real, Result};
 use nalgebra::{DMatrix, SMatrix, SVector};
 use rayon::prelude::*;
@@ -103,7 +104,10 @@ impl Statics {
         mut watch: impl FnMut(Progress),
     ) -> Result<Solved> {
         let before = body.u().clone();
-        let solved = loads.bind(body).and_then(|loads| self.iterate(body, &loads, &mut watch));
+        let mut solved = loads.bind(body).and_then(|loads| self.iterate(body, &loads, &mut watch));
+        if let Err(Error::IndefiniteOperator { wave, .. }) = &mut solved {
+            *wave = softest_wave(body)?;
+        }
         if solved.is_err() {
             *body.u_mut() = before;
             body.evaluate()?;
@@ -280,7 +284,8 @@ impl<T: Real> Operator<T> {
             let curvature = (0..D).map(|i| free[(i, i)].to_f64()).fold(f64::INFINITY, f64::min);
             let inverse = free.try_inverse().filter(|_| curvature > 0.0);
             let curvature = curvature / self.unit.powi(2);
-            let indefinite = Error::IndefiniteOperator { curvature, node, iteration: 0 };
+            let (wave, iteration) = (Vec::new(), 0);
+            let indefinite = Error::IndefiniteOperator { curvature, node, wave, iteration };
             blocks.set(site, inverse.ok_or(indefinite)?);
         }
         Ok(blocks)
@@ -296,7 +301,7 @@ impl<T: Real> Operator<T> {
         let size = |node: &usize| p.get(body.site(*node)).map(Real::to_f64).norm_squared();
         let node = (0..body.nodes()).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(0);
         let curvature = curvature / dot(p, p) / self.unit.powi(2);
-        Error::IndefiniteOperator { curvature, node, iteration }
+        Error::IndefiniteOperator { curvature, node, wave: Vec::new(), iteration }
     }
 }
 

@@ -96,12 +96,19 @@ pub fn require_stable<T: Real, const D: usize, B: Dynamics<T, D>>(
     if found.lowest >= -T::EPSILON.sqrt() * found.largest {
         return Ok(());
     }
-    let motion = in_peace(body, lowest_motion)?;
     Err(Error::UnstableBody {
         eigenvalue: found.lowest,
-        wave: dominant_wave(body, &motion).iter().copied().collect(),
+        wave: softest_wave(body)?,
         growth_rate: (-found.lowest).sqrt(),
     })
+}
+
+/// The wave vector in 1/m that the softest motion of a body (the lowest Ritz vector) has most of.
+pub(crate) fn softest_wave<T: Real, const D: usize, B: Dynamics<T, D>>(
+    body: &mut B,
+) -> Result<Vec<f64>> {
+    let motion = in_peace(body, lowest_motion)?;
+    Ok(dominant_wave(body, &motion).iter().copied().collect())
 }
 
 /// Probes a body and puts its motion back.
