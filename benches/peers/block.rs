@@ -72,8 +72,7 @@ fn runs(n: usize, material: &impl Material<f64, 3>) -> ([f64; 3], Displacements)
     let (without, bare) = run(lattice(), n, material, NoDamage);
     assert!(u == bare, "a criterion that breaks nothing changed the displacements");
     let points = Points::from_grid(&grid);
-    let (cloud, other) =
-        run(Cloud::new(&points, horizon, Quadrature::None), n, material, damage());
+    let (cloud, other) = run(Cloud::new(&points, horizon, Quadrature::None), n, material, damage());
     assert!(u == other, "lattice and cloud differ");
     ([with, without, cloud], u)
 }
@@ -86,8 +85,7 @@ fn difference(u: &Displacements, n: usize, path: &str) -> f64 {
     let (mut largest, mut apart, mut met) = (0.0_f64, 0.0_f64, vec![false; grid.len()]);
     // Nine lines of head: time, count, box, columns.
     for line in text.lines().skip(9) {
-        let row: Vec<f64> =
-            line.split_whitespace().map(|x| x.parse().expect("a number")).collect();
+        let row: Vec<f64> = line.split_whitespace().map(|x| x.parse().expect("a number")).collect();
         let theirs = SVector::from([row[3], row[4], row[5]]);
         let reference = SVector::from([row[0], row[1], row[2]]) - theirs;
         let cell = std::array::from_fn(|d| (reference[d] - grid.origin()[d]).round() as usize);
