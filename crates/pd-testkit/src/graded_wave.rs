@@ -74,7 +74,11 @@ impl Plate {
     ///
     /// # Errors
     /// A run that does not stay finite.
-    pub fn send<F, M>(&self, body: &mut Body<f64, 2, F, M, NoDamage>, speed: f64) -> Result<Crossing>
+    pub fn send<F, M>(
+        &self,
+        body: &mut Body<f64, 2, F, M, NoDamage>,
+        speed: f64,
+    ) -> Result<Crossing>
     where
         F: Family<f64, 2>,
         M: Material<f64, 2>,
