@@ -71,7 +71,7 @@ where
 
 /// Draws the damage of the nodes that `shown` selects at their deformed places in the plane of
 /// two axes, displacements enlarged by `scale`. Nodes without any bond left are not drawn: they
-/// fly away.
+/// fly away. Nodes larger than the unit of length (of a graded cloud) are drawn as large as they are.
 ///
 /// # Errors
 /// [`Error::Other`] with the path if it cannot be written.
@@ -93,8 +93,13 @@ where
         let value = body.damage(node);
         if value < 1.0 {
             let x = body.position(node) + scale * body.displacement(node);
-            places.push(SVector::<f64, 2>::new(x[axes[0]], x[axes[1]]));
-            damage.push(value);
+            let edge = body.family().volume(node).powf(1.0 / D as f64);
+            let parts = (edge / body.family().unit()).round().max(1.0) as usize;
+            let offset = |k: usize| ((k as f64 + 0.5) / parts as f64 - 0.5) * edge;
+            for (k, l) in (0..parts * parts).map(|part| (part / parts, part % parts)) {
+                places.push(SVector::<f64, 2>::new(x[axes[0]] + offset(k), x[axes[1]] + offset(l)));
+                damage.push(value);
+            }
         }
     }
     let path = path.as_ref();

@@ -65,6 +65,35 @@ impl<const D: usize> Points<D> {
             spacing: grid.spacing()[0],
         }
     }
+    /// The cells of a grid, each halved along every axis until it is no wider than `spacing` allows at
+    /// its centre, in metres: squares (cubes) of edges Δx, Δx/2, Δx/4, …, one node in each. The finest
+    /// edge becomes the unit of length. [`edge`](Self::edge) gives what horizons are multiples of.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for a spacing that is not finite and positive.
+    pub fn refined(grid: &Grid<D>, spacing: impl Fn(&SVector<f64, D>) -> f64) -> Result<Self> {
+        let (mut positions, mut volumes) = (Vec::new(), Vec::new());
+        let mut finest = f64::INFINITY;
+        // Cells yet to look at, with how often they were halved; the first on top.
+        let mut cells: Vec<_> = grid.positions().map(|x| (x, 0)).collect();
+        cells.reverse();
+        while let Some((x, halved)) = cells.pop() {
+            let edges = grid.spacing() * 0.5_f64.powi(halved);
+            let wanted = Error::positive("spacing wanted of a cloud [m]", spacing(&x))?;
+            // A wanted edge that is off by rounding is met.
+            if edges.max() <= wanted * (1.0 + 1e-9) {
+                positions.push(x);
+                volumes.push(edges.product());
+                finest = edges.max().min(finest);
+                continue;
+            }
+            for part in (0..1_usize << D).rev() {
+                let side = |d: usize| if part >> d & 1 == 1 { 0.25 } else { -0.25 };
+                cells.push((SVector::from_fn(|d, _| x[d] + side(d) * edges[d]), halved + 1));
+            }
+        }
+        Self::new(positions, volumes)?.with_spacing(finest)
+    }
     /// With this unit of length Δx in metres: horizon ratios refer to it.
     ///
     /// # Errors
@@ -88,6 +117,10 @@ impl<const D: usize> Points<D> {
     /// Volume of a node in m^D.
     pub fn volume(&self, node: usize) -> f64 {
         self.volumes[node]
+    }
+    /// Edge of the square (cube) of a node's volume in metres: its local spacing.
+    pub fn edge(&self, node: usize) -> f64 {
+        self.volumes[node].powf(1.0 / D as f64)
     }
     /// The unit of length Δx in metres.
     pub fn spacing(&self) -> f64 {

@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use nalgebra::{Vector2, Vector3};
-use pd_core::region::Disc;
+use pd_core::region::{Cuboid, Disc};
 use pd_core::{Error, Grid, Points};
 
 #[test]
@@ -58,5 +58,28 @@ fn refuses_bad_numbers() {
         let error = Points::new(vec![Vector2::new(0.0, bad)], vec![1.0]).unwrap_err();
         assert!(matches!(error, Error::InvalidNodeValue { node: 0, .. }), "{error}");
         assert!(error.to_string().starts_with("coordinate [m] of node 0 is"), "{error}");
+    }
+}
+
+#[test]
+fn refined_cells_fill_the_grid() {
+    let cube = Cuboid::new([0.0; 3], [4.0; 3]).unwrap();
+    let grid = Grid::new(&cube, 1.0).unwrap();
+    let wanted = |x: &Vector3<f64>| if x.x < 1.0 { 0.25 } else { 0.6 + x.y };
+    let points = Points::refined(&grid, wanted).unwrap();
+    assert_relative_eq!((0..points.len()).map(|i| points.volume(i)).sum::<f64>(), 64.0);
+    assert_eq!(points.spacing(), 0.25);
+    for node in 0..points.len() {
+        let (x, edge) = (points.position(node), points.edge(node));
+        // No wider than asked for, never halved without need, and on the grid of its own edge.
+        assert!(edge <= wanted(x) * (1.0 + 1e-9), "{x} {edge}");
+        let parent = x.map(|c| ((c / (2.0 * edge)).floor() + 0.5) * 2.0 * edge);
+        assert!(edge > 0.9 || wanted(&parent) < 2.0 * edge, "{x} {edge}");
+        let place = x / edge - Vector3::repeat(0.5);
+        assert!((place - place.map(f64::round)).amax() < 1e-9);
+    }
+    assert_eq!(Points::refined(&grid, |_| 1.0).unwrap().len(), grid.len());
+    for bad in [0.0, f64::NAN] {
+        assert!(matches!(Points::refined(&grid, |_| bad), Err(Error::InvalidValue { .. })));
     }
 }

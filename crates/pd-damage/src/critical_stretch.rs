@@ -1,6 +1,7 @@
 //! Critical stretch: a bond breaks when s = e/|ξ| exceeds s_c.
 
 use crate::calibration::{BondModel, BondStrength, CrackPlane, FractureEnergy, critical_size};
+use pd_core::bond::Scale;
 use pd_core::damage::{DamageCriterion, TestedBond};
 use pd_core::{Error, Material, Real, Result};
 use std::f64::consts::PI;
@@ -97,6 +98,51 @@ impl CriticalStretch {
     /// s_c.
     pub fn stretch(&self) -> f64 {
         self.stretch
+    }
+    /// This s_c where the horizon is `horizon` in metres, and elsewhere the one of the same fracture
+    /// energy: for bodies with one horizon per node.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] unless positive.
+    pub fn at_horizon(self, horizon: f64) -> Result<LocalStretch> {
+        let horizon = Error::positive("horizon δ of the critical stretch [m]", horizon)?;
+        Ok(LocalStretch { stretch: self.stretch, horizon })
+    }
+}
+
+/// Critical stretch of a body whose horizon varies by node, see [`CriticalStretch::at_horizon`].
+///
+/// A crack costs G_c ∝ s_c²δ whatever the material, so s_i = s_c √(δ/δ_i) costs the same at every
+/// node whose family looks alike in units of δ_i. A bond that both ends have in their family carries
+/// the energy of both and breaks at the mean of their t_c = (1 + s_i)² − 1; one that a single end
+/// has in its family breaks at that end's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalStretch {
+    stretch: f64,
+    horizon: f64,
+}
+
+impl LocalStretch {
+    /// s_i of a node with this horizon in metres.
+    pub fn stretch(&self, horizon: f64) -> f64 {
+        self.stretch * (self.horizon / horizon).sqrt()
+    }
+}
+
+impl<T: Real, const D: usize, M: Material<T, D>> DamageCriterion<T, D, M> for LocalStretch {
+    /// t_c.
+    type NodeConst = T;
+    type NodeValue = ();
+
+    fn node_const(&self, _: usize, scale: Scale) -> T {
+        let stretch = self.stretch(scale.horizon * scale.unit);
+        T::of(stretch * (2.0 + stretch))
+    }
+    #[inline(always)]
+    fn index(&self, tested: &TestedBond<'_, T, D, M, T, ()>) -> T {
+        let ([near, far], [a, b]) = (tested.ends, tested.constants);
+        let critical = near.volume * *a + far.volume * *b;
+        tested.bond.square_strain() * (near.volume + far.volume) / critical
     }
 }
 

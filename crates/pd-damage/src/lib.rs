@@ -13,6 +13,6 @@ pub use calibration::{BondModel, BondStrength, CrackPlane, FractureEnergy, Fract
 pub use combine::{AnyOf, CriterionExt, Either, Interfaces, Sparing};
 pub use crack_opening::CrackOpening;
 pub use crack_path::{CrackPath, CrackTip, LineFit, Mirror, TipTrack};
-pub use critical_stretch::CriticalStretch;
+pub use critical_stretch::{CriticalStretch, LocalStretch};
 pub use measures::Measures;
 pub use tsai_hill::{Signs, Strengths, Strengths3, TsaiHill, TsaiHill3};

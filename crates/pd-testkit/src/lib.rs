@@ -1,4 +1,5 @@
 //! Problems with known solutions, for tests, benches and examples. Not published.
 pub mod fem;
+pub mod graded_wave;
 pub mod infinite_plate;
 pub mod oracle;
