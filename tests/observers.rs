@@ -115,15 +115,15 @@ fn gap(safety: f64) -> [f64; 2] {
     [gap, e.dissipated]
 }
 
-/// Energy is accounted for. A bond breaks at the end of a step, its force is then gone for the
-/// second half of the kick: what is lost that way is of first order in the time step.
+/// Energy is accounted for: what is lost is of second order in the time step, although a bond breaks
+/// at the end of a step and its force is then gone for the second half of the kick.
 #[test]
 fn energies_balance() {
     let [coarse, dissipated] = gap(0.2);
     assert!(coarse.abs() < 0.1 * dissipated, "{coarse:e} of {dissipated:e}");
     let [fine, dissipated] = gap(0.02);
     assert!(fine.abs() < 0.01 * dissipated, "{fine:e} of {dissipated:e}");
-    assert!((0.04..0.25).contains(&(fine / coarse)), "{fine:e} {coarse:e}");
+    assert!(fine.abs() < 0.04 * coarse.abs(), "{fine:e} {coarse:e}");
 }
 
 /// Newton: the impulse of the grips' reactions is the momentum that the free nodes gain (exactly
