@@ -9,7 +9,7 @@ use pd_models::{BondAssociated, Correspondence, LinearElastic, WanControl};
 use std::f64::consts::PI;
 
 #[test]
-fn the_long_wave_is_the_softest_and_the_time_step_is_that_of_wan_control() {
+fn no_wave_is_free_and_the_time_step_is_longer_than_with_wan_control() {
     for (name, degrees, c) in plies() {
         for (m, influence) in KERNELS {
             let material = BondAssociated::<2, 3>::new(&c, DENSITY, influence).unwrap();
@@ -27,7 +27,7 @@ fn the_long_wave_is_the_softest_and_the_time_step_is_that_of_wan_control() {
                 .with_control(WanControl::new(&c, 1.0).unwrap());
             let wan: Symbol<2> = symbol(&wan, m, Quadrature::None);
             let ratio = own.stiffest.eigenvalue / wan.max_frequency().powi(2);
-            assert!((0.5..1.5).contains(&ratio), "{name} {degrees}° m = {m}: {ratio}");
+            assert!((0.2..0.9).contains(&ratio), "{name} {degrees}° m = {m}: {ratio}");
         }
     }
 }
