@@ -1,10 +1,8 @@
 //! What studies share: how large a run is, and pictures of damage.
 
 use nalgebra::SVector;
-use pd_core::shape::{IllConditioned, ShapePolicy};
 use pd_core::{Body, DamagePolicy, Error, Family, Material, Real, Result};
 use pd_io::{ColourMap, FieldMap};
-use pd_models::{Correspondence, LinearElastic, SillingControl, Stiffness};
 use std::path::Path;
 
 /// How much work a study takes, from its arguments: `--short` (seconds), nothing (about a minute
@@ -37,25 +35,6 @@ impl Effort {
             Self::Full => full,
         }
     }
-}
-
-/// A correspondence ply for plates that crack along their fibres: the linear influence function, and
-/// a weak control of zero-energy modes on the scale of `soft`, the modulus across the fibres in Pa
-/// (one with the fibre's stiffness hinders the sliding along the fibres that a split is made of).
-/// Nodes whose shape tensor has a condition number above 5 carry no stress: what is left of their
-/// family says too little about the strain.
-///
-/// # Errors
-/// A density or modulus that is not positive.
-pub fn cracking_ply(
-    stiffness: Stiffness<2>,
-    density: f64,
-    soft: f64,
-) -> pd_models::Result<Correspondence<LinearElastic<2>, SillingControl>> {
-    let linear = pd_core::InfluenceFunction::Linear;
-    Ok(Correspondence::new(LinearElastic(stiffness), density, linear)?
-        .with_control(SillingControl::new(0.5 * soft, 0.3)?)
-        .with_shape_policy(ShapePolicy { rule: IllConditioned::Detach, limit: 5.0 }))
 }
 
 /// Damage index of every node.

@@ -108,6 +108,10 @@ impl Measures {
     pub fn hard_least(&mut self, measure: &str, got: f64, least: f64) -> &mut Self {
         self.add(Demand::Hard, measure, &format!("≥ {}", bound(least)), &digits(got), got >= least)
     }
+    /// A measure that is to be at least `least`.
+    pub fn soft_least(&mut self, measure: &str, got: f64, least: f64) -> &mut Self {
+        self.add(Demand::Soft, measure, &format!("≥ {}", bound(least)), &digits(got), got >= least)
+    }
     /// A statement that must hold.
     pub fn hard(&mut self, statement: &str, holds: bool) -> &mut Self {
         self.add(Demand::Hard, statement, "holds", if holds { "holds" } else { "fails" }, holds)
