@@ -12,7 +12,7 @@
 
 use peridynamics::models::elasticity::catalogue;
 use peridynamics::prelude::*;
-use peridynamics::study::{Effort, damage, draw_damage};
+use peridynamics::study::{Effort, conclude, damage, draw_damage};
 
 type Place = SVector<f64, 2>;
 
@@ -156,12 +156,9 @@ fn pull(depth: f64, dx: f64, table: &mut Measures) -> Result<()> {
 fn main() -> Result<()> {
     let effort = Effort::from_arguments();
     let dx = LENGTH / effort.choose(200.0, 400.0, 400.0);
-    let command = "cargo run --release --example hattori_delamination";
-    let mut table = Measures::new("Delamination (Hattori §6.4)", command);
+    let command = effort.command("hattori_delamination");
+    let mut table = Measures::new("Delamination (Hattori §6.4)", &command);
     pull(0.0, dx, &mut table)?;
     pull(5.0 * MM, dx, &mut table)?;
-    print!("{table}");
-    table.write(format!("{FOLDER}/measures.md"))?;
-    println!("pictures and measures.md are in {FOLDER}");
-    Ok(())
+    conclude(&table, effort, FOLDER, &[])
 }

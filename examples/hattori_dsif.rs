@@ -29,6 +29,7 @@ use peridynamics::models::elasticity::catalogue::{GRAPHITE_EPOXY, GRAPHITE_EPOXY
 use peridynamics::models::elasticity::{Intensity, OpeningFit};
 use peridynamics::models::{NoControl, ZeroEnergyControl};
 use peridynamics::prelude::*;
+use peridynamics::study::conclude;
 use std::time::Instant;
 
 /// Edge and length of the crack in metres; end of the run in seconds.
@@ -266,10 +267,7 @@ fn main() -> Outcome {
     let steps = fast.steps as f64 / slow.steps as f64;
     table.soft_most("steps over those of the paper's step", steps, 0.05);
     table.soft_most("cost over that of the paper's step", fast.seconds / slow.seconds, 0.2);
-    print!("{table}");
-    table.write("out/hattori_dsif/measures.md")?;
     plots[0].write("out/hattori_dsif/k1.png")?;
     plots[1].write("out/hattori_dsif/k2.png")?;
-    println!("pictures are in out/hattori_dsif");
-    Ok(())
+    Ok(conclude(&table, effort, "out/hattori_dsif", &[])?)
 }

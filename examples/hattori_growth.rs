@@ -14,7 +14,7 @@
 use peridynamics::damage::crack_path::{fit_line, without_ends};
 use peridynamics::models::elasticity::catalogue;
 use peridynamics::prelude::*;
-use peridynamics::study::{Effort, damage, draw_damage};
+use peridynamics::study::{Effort, conclude, damage, draw_damage};
 
 type Place = SVector<f64, 2>;
 type Ply = BondAssociated<2, 3>;
@@ -156,15 +156,12 @@ fn draw(body: &Plate, label: &str, time: f64, when: &str) -> Result<()> {
 fn main() -> Result<()> {
     let effort = Effort::from_arguments();
     let across = effort.choose(40.0, 80.0, 300.0);
-    let command = "cargo run --release --example hattori_growth";
-    let mut table = Measures::new("Edge crack, inclusion and hole (Hattori §6.3)", command);
+    let command = effort.command("hattori_growth");
+    let mut table = Measures::new("Edge crack, inclusion and hole (Hattori §6.3)", &command);
     for speed in [25.0, 50.0] {
         for (degrees, bulk) in BULK {
             grow(degrees, speed, bulk * 25.0 / speed, WIDTH / across, &mut table)?;
         }
     }
-    print!("{table}");
-    table.write(format!("{FOLDER}/measures.md"))?;
-    println!("pictures and measures.md are in {FOLDER}");
-    Ok(())
+    conclude(&table, effort, FOLDER, &["v = 25, 90°: edge crack"])
 }

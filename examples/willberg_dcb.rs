@@ -21,7 +21,7 @@
 use peridynamics::damage::bond_energy::Uniform;
 use peridynamics::observe::Table;
 use peridynamics::prelude::*;
-use peridynamics::study::{Effort, damage, draw_damage};
+use peridynamics::study::{Effort, conclude, damage, draw_damage};
 
 type Place = SVector<f64, 3>;
 
@@ -258,10 +258,8 @@ fn open<M: StrainEnergy<f64, 3>>(
 
 fn main() -> Result<()> {
     let effort = Effort::from_arguments();
-    let mut table = Measures::new(
-        "Double cantilever beam (Willberg §5A)",
-        "cargo run --release --example willberg_dcb",
-    );
+    let mut table =
+        Measures::new("Double cantilever beam (Willberg §5A)", &effort.command("willberg_dcb"));
     let speed = effort.choose(0.032, 0.016, 0.004);
     let moduli = Isotropic::from_bulk_shear(1.75e9, 0.808e9).map_err(other)?;
     let constant = InfluenceFunction::Constant;
@@ -284,8 +282,5 @@ fn main() -> Result<()> {
         // At the default speed: the steps are half as long, the nodes eight times as many.
         open((lps()?, "LPS"), (0.5 * MM, 3.015), 0.016, false, &mut table)?;
     }
-    print!("{table}");
-    table.write(format!("{FOLDER}/measures.md"))?;
-    println!("curves, pictures and measures.md are in {FOLDER}");
-    Ok(())
+    conclude(&table, effort, FOLDER, &["stiffness F/u", "opening against compliance"])
 }

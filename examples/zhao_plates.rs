@@ -18,7 +18,7 @@
 use peridynamics::damage::combine::Sparing;
 use peridynamics::damage::crack_path::{Separated, inclination, path, path_at, symmetry_error};
 use peridynamics::prelude::*;
-use peridynamics::study::{Effort, damage, draw_damage};
+use peridynamics::study::{Effort, conclude, damage, draw_damage};
 
 type Place = SVector<f64, 2>;
 type Plate<C> = Body<f64, 2, Lattice<f64, 2>, Ordinary<MadenciOterkus>, Breaking<Sparing<C>, 2>>;
@@ -401,12 +401,9 @@ where
 
 fn main() -> Result<()> {
     let effort = Effort::from_arguments();
-    let command = "cargo run --release --example zhao_plates";
-    let mut table = Measures::new("Plates of Q345 steel (Zhao, examples 1–4)", command);
+    let command = effort.command("zhao_plates");
+    let mut table = Measures::new("Plates of Q345 steel (Zhao, examples 1–4)", &command);
     study("opening", effort, CrackOpening::from_energy, &mut table)?;
     study("stretch", effort, CriticalStretch::from_energy, &mut table)?;
-    print!("{table}");
-    table.write(format!("{FOLDER}/measures.md"))?;
-    println!("pictures and measures.md are in {FOLDER}");
-    Ok(())
+    conclude(&table, effort, FOLDER, &[])
 }

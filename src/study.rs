@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 use pd_core::{Body, DamagePolicy, Error, Family, Material, Real, Result};
+use pd_damage::Measures;
 use pd_io::{ColourMap, FieldMap};
 use std::path::Path;
 
@@ -27,6 +28,11 @@ impl Effort {
             _ => Self::Default,
         }
     }
+    /// The command that runs an example with this effort.
+    pub fn command(self, example: &str) -> String {
+        let flag = self.choose(" -- --short", "", " -- --full");
+        format!("cargo run --release --example {example}{flag}")
+    }
     /// One of three values.
     pub fn choose<X>(self, short: X, default: X, full: X) -> X {
         match self {
@@ -35,6 +41,25 @@ impl Effort {
             Self::Full => full,
         }
     }
+}
+
+/// Ends a study: prints its table and writes it to `folder`, as `measures.md`, or as
+/// `measures_short.md` and `measures_full.md`. A short run is a test too: every HARD measure must hold
+/// but those that are known to miss on its coarse body, by a part of their names.
+///
+/// # Errors
+/// [`Error::Other`] if the table cannot be written, or with the measures that miss in a short run.
+pub fn conclude(table: &Measures, effort: Effort, folder: &str, known: &[&str]) -> Result<()> {
+    print!("{table}");
+    let file = effort.choose("measures_short.md", "measures.md", "measures_full.md");
+    table.write(format!("{folder}/{file}"))?;
+    println!("pictures and {file} are in {folder}");
+    let expected = |name: &&str| known.iter().any(|part| name.contains(part));
+    let misses: Vec<&str> = table.misses().filter(|name| !expected(name)).collect();
+    if effort == Effort::Short && !misses.is_empty() {
+        return Err(Error::Other(format!("HARD measures miss: {}", misses.join("; "))));
+    }
+    Ok(())
 }
 
 /// Damage index of every node.

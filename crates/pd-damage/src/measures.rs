@@ -122,7 +122,12 @@ impl Measures {
     }
     /// True if every HARD measure holds.
     pub fn passed(&self) -> bool {
-        self.rows.iter().all(|row| row.pass || row.demand == Demand::Soft)
+        self.misses().next().is_none()
+    }
+    /// Names of the HARD measures that do not hold.
+    pub fn misses(&self) -> impl Iterator<Item = &str> {
+        let missed = |row: &&Row| !row.pass && row.demand == Demand::Hard;
+        self.rows.iter().filter(missed).map(|row| row.measure.as_str())
     }
     /// The measures of another table, after these.
     pub fn extend(&mut self, other: Self) -> &mut Self {
