@@ -275,5 +275,5 @@ fn main() -> Result<()> {
     let mut table = Measures::new("Graded clouds: a plate refined 4:1 around its crack", &command);
     cracks(effort, &mut table)?;
     waves(effort, &mut table)?;
-    conclude(&table, effort, FOLDER, &[])
+    conclude(&table, effort, FOLDER, &["tip speed", "paths apart"])
 }
