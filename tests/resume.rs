@@ -110,8 +110,9 @@ fn correspondence_that_breaks() {
 fn cloud_that_breaks() {
     let points = Points::from_grid(&grid());
     let body = || {
-        let horizons: Vec<f64> =
-            points.positions().iter().map(|x| if x[0] < 0.0 { 2.2e-3 } else { 3e-3 }).collect();
+        let horizons: Vec<f64> = (0..points.len())
+            .map(|i| if grid().position(i)[0] < 0.0 { 2.2e-3 } else { 3e-3 })
+            .collect();
         let family = Cloud::<f64, 2>::graded(&points, &horizons, Quadrature::None).expect("family");
         let glass = Isotropic::from_young_poisson(70e9, 0.3).expect("moduli");
         let solid =
