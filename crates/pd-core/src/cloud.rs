@@ -189,6 +189,9 @@ impl<T: Real, const D: usize> Cloud<T, D> {
         } else {
             (cloud.shapes, cloud.samples) = (kinds.shapes, kinds.samples);
         }
+        cloud.shapes.shrink_to_fit();
+        cloud.samples.shrink_to_fit();
+        kind.shrink_to_fit();
         (cloud.start, cloud.neighbour, cloud.kind) = (start, neighbour, kind);
         Ok(cloud)
     }
