@@ -507,7 +507,8 @@ where
     J: Inputs<T, Value = Kn::Own>,
 {
     let fused = cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma");
-    if T::WIDE {
+    // The optimiser vectorises sums of more numbers than this in loops of sixteen only.
+    if T::WIDE || Kn::Sum::LEN > 4 {
         sweep_blocks::<T, D, Kn, I, J, WIDEST>(job, sites, out, fused)
     } else {
         sweep_blocks::<T, D, Kn, I, J, LANES>(job, sites, out, fused)
