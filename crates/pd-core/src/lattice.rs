@@ -1,6 +1,7 @@
 //! Families on a uniform lattice: one table of offsets serves every node.
 //!
-//! Sites lie in rows along x, padded so that every offset of every node stays inside the arrays.
+//! Sites lie in rows along x; rows and planes are parted by as many empty sites as the horizon
+//! reaches, so that one distance leads to a neighbour from every node.
 //! The loop takes a register of consecutive sites at a time ([`Real::WIDTH`]) and runs through the
 //! offsets inside, so that scalar material code becomes vector code. Where a neighbour is missing
 //! (padding, holes, outlines, broken bonds) its lane is masked; blocks with nothing missing skip
