@@ -360,10 +360,15 @@ where
     own: J,
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
-    "x86_64+avx2+fma"
-))]
+// Tests and debug builds compile one version less: each costs a third of their time.
+#[cfg_attr(
+    not(debug_assertions),
+    multiversion(targets(
+        "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+        "x86_64+avx2+fma"
+    ))
+)]
+#[cfg_attr(debug_assertions, multiversion(targets("x86_64+avx2+fma")))]
 fn sweep_chunk<T, const D: usize, Kn, I, J>(
     job: &Job<'_, T, D, Kn, I, J>,
     nodes: Range<usize>,
@@ -708,10 +713,14 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
-    "x86_64+avx2+fma"
-))]
+#[cfg_attr(
+    not(debug_assertions),
+    multiversion(targets(
+        "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+        "x86_64+avx2+fma"
+    ))
+)]
+#[cfg_attr(debug_assertions, multiversion(targets("x86_64+avx2+fma")))]
 fn fuses() -> bool {
     cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma")
 }

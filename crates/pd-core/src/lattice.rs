@@ -492,10 +492,15 @@ where
     largest.into_iter().fold(T::zero(), |a, b| if b > a { b } else { a })
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
-    "x86_64+avx2+fma"
-))]
+// Tests and debug builds compile one version less: each costs a third of their time.
+#[cfg_attr(
+    not(debug_assertions),
+    multiversion(targets(
+        "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+        "x86_64+avx2+fma"
+    ))
+)]
+#[cfg_attr(debug_assertions, multiversion(targets("x86_64+avx2+fma")))]
 fn sweep_chunk<T, const D: usize, Kn, I, J>(
     job: &Job<'_, T, D, Kn, I, J>,
     sites: Range<usize>,
@@ -552,10 +557,14 @@ where
     marks: &'a [AtomicU8],
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
-    "x86_64+avx2+fma"
-))]
+#[cfg_attr(
+    not(debug_assertions),
+    multiversion(targets(
+        "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+        "x86_64+avx2+fma"
+    ))
+)]
+#[cfg_attr(debug_assertions, multiversion(targets("x86_64+avx2+fma")))]
 fn break_chunk<T, const D: usize, B, I>(
     job: &TestJob<'_, T, D, B, I>,
     first: usize,
