@@ -3,3 +3,4 @@ pub mod fem;
 pub mod graded_wave;
 pub mod infinite_plate;
 pub mod oracle;
+pub mod quads;
