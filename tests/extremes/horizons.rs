@@ -8,7 +8,7 @@ use proptest::prelude::*;
 fn sound<const D: usize>(what: &str, stiffness: &Stiffness<D>, list: Vec<Named<D>>) -> usize {
     let mut count = 0;
     for (name, mut body) in existing(list) {
-        let strain = SMatrix::<f64, D, D>::from_fn(|i, j| 1e-4 * (1.0 + (i + j) as f64));
+        let strain = SMatrix::<f64, D, D>::from_fn(|i, j| 1e-10 * (1.0 + (i + j) as f64));
         body.deform(&|x| strain * x);
         body.evaluate().expect("forces");
         let off = body.unbalanced();
@@ -33,8 +33,10 @@ fn sound<const D: usize>(what: &str, stiffness: &Stiffness<D>, list: Vec<Named<D
             Err(error) => {
                 println!("{what}, {name}: {error}");
                 let unstable = matches!(error, Error::UnstableBody { .. });
+                // Those whose energy has a negative part where a family is not a full ball.
+                let may = ["polynomial micromoduli", "Madenci-Oterkus"].contains(&name);
                 let nothing_left = matches!(error, Error::InvalidValue { .. });
-                assert!(unstable && name.contains("polynomial") || nothing_left, "{name}: {error}");
+                assert!(unstable && may || nothing_left, "{what}, {name}: {error}");
             }
         }
         count += 1;

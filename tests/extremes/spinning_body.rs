@@ -1,5 +1,5 @@
-//! A body spins freely through 100 turns with finite kinematics: angular momentum stays to 10⁻¹⁰,
-//! and it turns as far as it should.
+//! A body spins freely through 100 turns with finite kinematics: angular momentum stays to 10⁻¹⁰, the
+//! energy and the shape stay.
 use super::*;
 
 /// Rim speed over the wave speed: strains of its square.
@@ -36,12 +36,15 @@ fn spin<const D: usize>(name: &str, body: &mut dyn Specimen<D>, turns: f64) {
     let off = angular_momentum(body) / before - 1.0;
     println!("{name}, {D}D: {} steps, angular momentum off by {off:.1e}", (time / dt) as usize);
     assert!(off.abs() < 1e-10, "{name}: {off:e}");
-    // After whole turns every node is near its place again: the spin is slower by the strain.
-    let away = (0..n).map(|i| body.displacement(i).norm()).fold(0.0, f64::max) / radius;
-    assert!(body.is_finite() && away < 2.0, "{name}: {away}");
+    // Every node is as far from the middle as it was, but for the strain.
+    for i in 0..n {
+        let x = body.position(i) - middle;
+        let stretch = (x + body.displacement(i)).norm() / x.norm();
+        assert!((stretch - 1.0).abs() < 0.05, "{name}, node {i}: {stretch}");
+    }
     let energy = body.kinetic_energy() + body.strain_energy();
     let wanted = 0.5 * before * rate;
-    assert!((energy / wanted - 1.0).abs() < 1e-4, "{name}: energy {}", energy / wanted);
+    assert!((energy / wanted - 1.0).abs() < 1e-3, "{name}: energy {}", energy / wanted);
 }
 
 const FINITE: [&str; 7] = [

@@ -3,19 +3,18 @@
 
 use nalgebra::{SMatrix, SVector};
 use pd_core::body::BreakEvents;
-use pd_core::bond::Scale;
 use pd_core::cloud::Cloud;
 use pd_core::damage::{Breaking, DamageCriterion, DamagePolicy, TestedBond};
 use pd_core::family::{Horizon, Neighbour, Tally};
 use pd_core::field::Field;
 use pd_core::influence::InfluenceFunction;
-use pd_core::material::{Material, StrainEnergy, StressState};
+use pd_core::material::{EnergySplit, Material, StrainEnergy};
 use pd_core::points::Points;
 use pd_core::quadrature::Quadrature;
+use pd_core::record::Record;
 use pd_core::run::{Run, TimeStep};
 use pd_core::statics::{Solved, Statics};
 use pd_core::{Body, Dynamics, Family, Loads, Real, Result, StateReader, StateWriter};
-use pd_damage::tsai_hill::Strengths3;
 use pd_damage::{
     BondEnergy, CrackOpening, CriticalStretch, ModeEnergies, PowerLaw, Separated, Strengths,
     TsaiHill, TsaiHill3,
@@ -401,12 +400,63 @@ enum ForAny {
 impl<T: Real, const D: usize, M: Material<T, D>> DamageCriterion<T, D, M> for ForAny {
     type NodeConst = ();
     type NodeValue = ();
-    fn node_const(&self, _: usize, _: Scale) {}
     fn index(&self, bond: &TestedBond<'_, T, D, M, (), ()>) -> T {
         match self {
             Self::Stretch(criterion) => criterion.index(bond),
             Self::Opening(criterion) => criterion.index(bond),
             Self::Energy(criterion) => criterion.index(bond),
+        }
+    }
+}
+
+/// A criterion for a material with a capability: those for any, or the ones it is for.
+#[derive(Debug, Clone, Copy)]
+enum OrElse<C> {
+    Any(ForAny),
+    Own(C),
+}
+
+impl<T, const D: usize, M, C> DamageCriterion<T, D, M> for OrElse<C>
+where
+    T: Real,
+    M: Material<T, D>,
+    C: DamageCriterion<T, D, M, NodeConst = ()>,
+{
+    type NodeConst = ();
+    type NodeValue = C::NodeValue;
+    fn node_value(
+        &self,
+        material: &M,
+        constants: &M::NodeConst,
+        state: &M::NodeState,
+    ) -> C::NodeValue {
+        match self {
+            Self::Any(_) => Record::zero(),
+            Self::Own(criterion) => criterion.node_value(material, constants, state),
+        }
+    }
+    fn index(&self, bond: &TestedBond<'_, T, D, M, (), C::NodeValue>) -> T {
+        match self {
+            Self::Any(criterion) => criterion.index(&bond.seen_by([&(), &()], [&(), &()])),
+            Self::Own(criterion) => criterion.index(bond),
+        }
+    }
+}
+
+/// Criteria for materials that tell volumetric from deviatoric energy.
+#[derive(Debug, Clone, Copy)]
+enum Split {
+    PowerLaw(PowerLaw),
+    Separated(Separated),
+}
+
+impl<T: Real, const D: usize, M: EnergySplit<T, D>> DamageCriterion<T, D, M> for Split {
+    type NodeConst = ();
+    type NodeValue = ();
+    fn index(&self, bond: &TestedBond<'_, T, D, M, (), ()>) -> T {
+        match self {
+            Self::PowerLaw(criterion) => criterion.index(bond),
+            Self::Separated(criterion) => criterion.index(bond),
         }
     }
 }
@@ -439,9 +489,6 @@ pub struct Named<const D: usize> {
 }
 
 impl<const D: usize> Recipe<D> {
-    fn family<T: Real>(&self) -> Result<Cloud<T, D>> {
-        Cloud::new(&self.points, Horizon::Metres(self.horizon), Quadrature::None)
-    }
     /// E ε² / δ^D: an energy of the size of a bond's.
     fn bond_energy(&self) -> f64 {
         self.moduli.young() * self.tear.at.powi(2) / self.horizon.powi(D as i32)
@@ -464,71 +511,55 @@ impl<const D: usize> Recipe<D> {
             _ => return Ok(None),
         }))
     }
-    fn with<T, M>(
+    /// For any material, or by its own criterion; None for one that does not compile with it.
+    fn or_own<C>(&self, own: Result<Option<C>>) -> Result<Option<OrElse<C>>> {
+        Ok(self.for_any()?.map(OrElse::Any).or(own?.map(OrElse::Own)))
+    }
+    fn split(&self) -> Result<Option<OrElse<Split>>> {
+        let modes = self.modes()?;
+        self.or_own(Ok(match self.tear.by {
+            Criterion::PowerLaw => Some(Split::PowerLaw(PowerLaw::new(modes))),
+            Criterion::Separated => Some(Split::Separated(Separated::new(modes))),
+            _ => None,
+        }))
+    }
+    /// Adds a specimen to a list if the criterion compiles with the material.
+    fn add<T, M, C>(
         &self,
+        list: &mut Vec<Named<D>>,
+        name: &'static str,
         material: pd_models::Result<M>,
-    ) -> Option<pd_models::Result<Box<dyn Specimen<D>>>>
-    where
+        criterion: Result<Option<C>>,
+    ) where
         T: Real,
         M: StrainEnergy<T, D> + 'static,
+        C: DamageCriterion<T, D, M> + 'static,
     {
         let body = |criterion| -> pd_models::Result<Box<dyn Specimen<D>>> {
-            Ok(boxed(Body::new(self.family::<T>()?, material?, Breaking::new(criterion))?))
+            let family = Cloud::new(&self.points, Horizon::Metres(self.horizon), Quadrature::None)?;
+            let body = Body::<T, D, _, M, _>::new(family, material?, Breaking::new(criterion))?;
+            Ok(Box::new(AnyBody(Box::new(body))))
         };
-        self.for_any().transpose().map(|criterion| body(criterion?))
+        let body = match criterion {
+            Ok(None) => return,
+            Ok(Some(criterion)) => body(criterion),
+            Err(error) => Err(error.into()),
+        };
+        list.push(Named { name, body });
     }
 }
 
-fn boxed<T, const D: usize, F, M, P>(body: Body<T, D, F, M, P>) -> Box<dyn Specimen<D>>
-where
-    T: Real,
-    F: Family<T, D> + 'static,
-    M: StrainEnergy<T, D> + 'static,
-    P: DamagePolicy<T, D, M> + 'static,
-{
-    Box::new(AnyBody(Box::new(body)))
-}
-
-/// Adds a specimen to a list, by the criteria its material compiles with.
+/// Adds specimens to a list: name, material, and where it has a capability the criteria it takes.
 macro_rules! add {
-    ($list:ident, $recipe:ident, $t:ty, $name:literal, $material:expr $(, $capability:ident)?) => {
-        let body = $recipe.with::<$t, _>($material);
-        $(let body = body.or_else(|| $recipe.$capability::<$t, _>($material));)?
-        $list.extend(body.map(|body| Named { name: $name, body }));
+    ($list:ident, $recipe:ident, $t:ty; $($name:literal: $material:expr, $criterion:ident;)*) => {
+        $($recipe.add::<$t, _, _>(&mut $list, $name, $material, $recipe.$criterion());)*
     };
 }
 
 impl Recipe<2> {
-    fn stressed<T, M>(
-        &self,
-        material: pd_models::Result<M>,
-    ) -> Option<pd_models::Result<Box<dyn Specimen<2>>>>
-    where
-        T: Real,
-        M: StrainEnergy<T, 2> + StressState<T, 2> + 'static,
-    {
-        let body = || -> pd_models::Result<Box<dyn Specimen<2>>> {
-            let criterion = TsaiHill::new(&self.strengths(), 0.3)?;
-            Ok(boxed(Body::new(self.family::<T>()?, material?, Breaking::new(criterion))?))
-        };
-        (self.tear.by == Criterion::TsaiHill).then(body)
-    }
-    fn split<T: Real, M>(
-        &self,
-        material: pd_models::Result<M>,
-    ) -> Option<pd_models::Result<Box<dyn Specimen<2>>>>
-    where
-        M: StrainEnergy<T, 2> + pd_core::EnergySplit<T, 2> + 'static,
-    {
-        let body = || -> pd_models::Result<Box<dyn Specimen<2>>> {
-            let (family, modes) = (self.family::<T>()?, self.modes()?);
-            Ok(if self.tear.by == Criterion::PowerLaw {
-                boxed(Body::new(family, material?, Breaking::new(PowerLaw::new(modes)))?)
-            } else {
-                boxed(Body::new(family, material?, Breaking::new(Separated::new(modes)))?)
-            })
-        };
-        matches!(self.tear.by, Criterion::PowerLaw | Criterion::Separated).then(body)
+    fn stress(&self) -> Result<Option<OrElse<TsaiHill>>> {
+        let own = || TsaiHill::new(&self.strengths(), 0.3);
+        self.or_own((self.tear.by == Criterion::TsaiHill).then(own).transpose())
     }
 
     /// Plates of every material that the criterion compiles with.
@@ -537,124 +568,41 @@ impl Recipe<2> {
         let (rho, omega) = (*rho, *omega);
         let stress = PlaneMode::PlaneStress;
         let third = || Isotropic::from_young_poisson(moduli.young(), 1.0 / 3.0);
+        let bonds = |t: Isotropic| Pmb::plane(&t, stress, rho, omega);
         let linear = || Correspondence::new(LinearElastic(*c), rho, omega);
+        let solid = || LinearSolid::plane(moduli, stress, rho, omega);
+        let split = || PositiveSplit::plane(c, rho, omega);
         let mut list = Vec::new();
-        add!(
-            list,
-            self,
-            T,
-            "bonds",
-            Pmb::plane(&third().unwrap(), stress, rho, omega).map(Ordinary::new)
-        );
-        add!(
-            list,
-            self,
-            T,
-            "linear solid",
-            LinearSolid::plane(moduli, stress, rho, omega).map(Ordinary::new),
-            split
-        );
-        add!(
-            list,
-            self,
-            T,
-            "linearised linear solid",
-            LinearSolid::plane(moduli, stress, rho, omega).map(Ordinary::linearised),
-            split
-        );
-        add!(
-            list,
-            self,
-            T,
-            "Madenci-Oterkus",
-            MadenciOterkus::plane(moduli, stress, rho).map(Ordinary::new)
-        );
-        add!(
-            list,
-            self,
-            T,
-            "polynomial micromoduli",
-            PolynomialMicromoduli::plane(c, rho, omega).map(Ordinary::new)
-        );
-        add!(
-            list,
-            self,
-            T,
-            "positive split",
-            PositiveSplit::plane(c, rho, omega).map(Ordinary::new)
-        );
-        add!(
-            list,
-            self,
-            T,
-            "strained positive split",
-            PositiveSplit::plane(c, rho, omega)
-                .map(|m| Ordinary::linearised(Strained::plane(m, c, omega))),
-            stressed
-        );
-        add!(list, self, T, "correspondence", linear(), stressed);
-        add!(
-            list,
-            self,
-            T,
-            "correspondence, Wan",
-            linear().and_then(|m| Ok(m.with_control(WanControl::new(c, 1.0)?))),
-            stressed
-        );
-        add!(
-            list,
-            self,
-            T,
-            "correspondence, Silling",
-            linear().and_then(|m| Ok(
-                m.with_control(SillingControl::new(moduli.plane_bulk(stress), 1.0)?)
-            )),
-            stressed
-        );
-        add!(
-            list,
-            self,
-            T,
-            "bond-associated",
-            BondAssociated::<2, 3>::new(c, rho, omega),
-            stressed
-        );
-        add!(
-            list,
-            self,
-            T,
-            "Saint-Venant-Kirchhoff",
-            Correspondence::new(SaintVenantKirchhoff(*c), rho, omega),
-            stressed
-        );
-        add!(
-            list,
-            self,
-            T,
-            "neo-Hookean",
-            Correspondence::new(NeoHookean::new(moduli), rho, omega),
-            stressed
-        );
+        add! { list, self, T;
+            "bonds": third().and_then(bonds).map(Ordinary::new), for_any;
+            "linear solid": solid().map(Ordinary::new), split;
+            "linearised linear solid": solid().map(Ordinary::linearised), split;
+            "Madenci-Oterkus":
+                MadenciOterkus::plane(moduli, stress, rho).map(Ordinary::new), for_any;
+            "polynomial micromoduli":
+                PolynomialMicromoduli::plane(c, rho, omega).map(Ordinary::new), for_any;
+            "positive split": split().map(Ordinary::new), for_any;
+            "strained positive split":
+                split().map(|m| Ordinary::linearised(Strained::plane(m, c, omega))), stress;
+            "correspondence": linear(), stress;
+            "correspondence, Wan":
+                linear().and_then(|m| Ok(m.with_control(WanControl::new(c, 1.0)?))), stress;
+            "correspondence, Silling": linear().and_then(|m| {
+                Ok(m.with_control(SillingControl::new(moduli.plane_bulk(stress), 1.0)?))
+            }), stress;
+            "bond-associated": BondAssociated::<2, 3>::new(c, rho, omega), stress;
+            "Saint-Venant-Kirchhoff":
+                Correspondence::new(SaintVenantKirchhoff(*c), rho, omega), stress;
+            "neo-Hookean": Correspondence::new(NeoHookean::new(moduli), rho, omega), stress;
+        }
         list
     }
 }
 
 impl Recipe<3> {
-    fn stressed<T, M>(
-        &self,
-        material: pd_models::Result<M>,
-    ) -> Option<pd_models::Result<Box<dyn Specimen<3>>>>
-    where
-        T: Real,
-        M: StrainEnergy<T, 3> + StressState<T, 3> + 'static,
-    {
-        let body = || -> pd_models::Result<Box<dyn Specimen<3>>> {
-            let Strengths { along, across, shear } = self.strengths();
-            let strengths = Strengths3 { along, across, shear };
-            let criterion = TsaiHill3::new(&strengths, [1.0, 0.3, 0.1])?;
-            Ok(boxed(Body::new(self.family::<T>()?, material?, Breaking::new(criterion))?))
-        };
-        (self.tear.by == Criterion::TsaiHill).then(body)
+    fn stress(&self) -> Result<Option<OrElse<TsaiHill3>>> {
+        let own = || TsaiHill3::new(&self.strengths(), [1.0, 0.3, 0.1]);
+        self.or_own((self.tear.by == Criterion::TsaiHill).then(own).transpose())
     }
 
     /// Blocks of every material that the criterion compiles with.
@@ -663,74 +611,23 @@ impl Recipe<3> {
         let (rho, omega) = (*rho, *omega);
         let quarter = || Isotropic::from_young_poisson(moduli.young(), 0.25);
         let linear = || Correspondence::new(LinearElastic(*c), rho, omega);
+        let bonds = |q: Isotropic| Pmb::solid(&q, rho, omega);
         let mut list = Vec::new();
-        add!(
-            list,
-            self,
-            T,
-            "bonds on their family",
-            Pmb::solid(&quarter().unwrap(), rho, omega).map(|m| Ordinary::new(m.on_family()))
-        );
-        add!(
-            list,
-            self,
-            T,
-            "linear solid",
-            LinearSolid::solid(moduli, rho, omega).map(Ordinary::new)
-        );
-        add!(
-            list,
-            self,
-            T,
-            "Madenci-Oterkus",
-            MadenciOterkus::solid(moduli, rho).map(Ordinary::new)
-        );
-        add!(
-            list,
-            self,
-            T,
-            "polynomial micromoduli",
-            PolynomialMicromoduli::solid(c, rho, omega).map(Ordinary::new)
-        );
-        add!(
-            list,
-            self,
-            T,
-            "positive split",
-            PositiveSplit::solid(c, rho, omega).map(Ordinary::new)
-        );
-        add!(
-            list,
-            self,
-            T,
-            "correspondence, Wan",
-            linear().and_then(|m| Ok(m.with_control(WanControl::new(c, 1.0)?))),
-            stressed
-        );
-        add!(
-            list,
-            self,
-            T,
-            "bond-associated",
-            BondAssociated::<3, 6>::new(c, rho, omega),
-            stressed
-        );
-        add!(
-            list,
-            self,
-            T,
-            "Saint-Venant-Kirchhoff",
-            Correspondence::new(SaintVenantKirchhoff(*c), rho, omega),
-            stressed
-        );
-        add!(
-            list,
-            self,
-            T,
-            "neo-Hookean",
-            Correspondence::new(NeoHookean::new(moduli), rho, omega),
-            stressed
-        );
+        add! { list, self, T;
+            "bonds on their family":
+                quarter().and_then(bonds).map(|m| Ordinary::new(m.on_family())), for_any;
+            "linear solid": LinearSolid::solid(moduli, rho, omega).map(Ordinary::new), split;
+            "Madenci-Oterkus": MadenciOterkus::solid(moduli, rho).map(Ordinary::new), for_any;
+            "polynomial micromoduli":
+                PolynomialMicromoduli::solid(c, rho, omega).map(Ordinary::new), for_any;
+            "positive split": PositiveSplit::solid(c, rho, omega).map(Ordinary::new), for_any;
+            "correspondence, Wan":
+                linear().and_then(|m| Ok(m.with_control(WanControl::new(c, 1.0)?))), stress;
+            "bond-associated": BondAssociated::<3, 6>::new(c, rho, omega), stress;
+            "Saint-Venant-Kirchhoff":
+                Correspondence::new(SaintVenantKirchhoff(*c), rho, omega), stress;
+            "neo-Hookean": Correspondence::new(NeoHookean::new(moduli), rho, omega), stress;
+        }
         list
     }
 }
