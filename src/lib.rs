@@ -97,6 +97,8 @@ pub mod study;
 
 /// Everything a simulation needs.
 pub mod prelude {
+    #[cfg(feature = "io")]
+    pub use crate::checkpoint::Checkpoint;
     pub use nalgebra::{SMatrix, SVector};
     pub use pd_core::body::{Body, Dynamics};
     pub use pd_core::bond::{Bond, End, Neighbourhood, Scale};

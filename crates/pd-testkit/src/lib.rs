@@ -4,4 +4,5 @@ pub mod generate;
 pub mod graded_wave;
 pub mod infinite_plate;
 pub mod oracle;
+pub mod quads;
 pub mod specimen;
