@@ -87,6 +87,7 @@ pub use pd_damage as damage;
 pub use pd_io as io;
 pub use pd_models as models;
 
+pub mod check;
 #[cfg(feature = "io")]
 pub mod checkpoint;
 #[cfg(feature = "io")]
