@@ -91,9 +91,13 @@ pub use pd_models as models;
 pub mod observe;
 #[cfg(feature = "io")]
 pub mod study;
+#[cfg(feature = "io")]
+pub mod trade;
 
 /// Everything a simulation needs.
 pub mod prelude {
+    #[cfg(feature = "io")]
+    pub use crate::trade::{Cost, Study};
     pub use nalgebra::{SMatrix, SVector};
     pub use pd_core::body::{Body, Dynamics};
     pub use pd_core::bond::{Bond, End, Neighbourhood, Scale};
