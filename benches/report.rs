@@ -5,6 +5,7 @@
 //! the lines of the first table that contain all of them and write nothing (`-- LPS 3D f64`).
 
 use multiversion::multiversion;
+use pd_testkit::clock::median;
 use peridynamics::prelude::*;
 use std::fmt::Write;
 use std::hint::black_box;
@@ -15,32 +16,6 @@ const RHO: f64 = 1000.0;
 /// Cells along an edge of the timed bodies.
 const EDGE2: usize = 256;
 const EDGE3: usize = 48;
-
-/// Seconds this thread has had the processor for (the wall clock where that is not told): other
-/// work on the machine then counts only by what it does to caches and clock.
-fn seconds() -> f64 {
-    thread_local!(static START: Instant = Instant::now());
-    let own = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let own = own.and_then(|s| s.split(' ').next().and_then(|ns| ns.parse::<f64>().ok()));
-    own.map_or_else(|| START.with(|start| start.elapsed().as_secs_f64()), |ns| 1e-9 * ns)
-}
-
-/// Median of the seconds that `work` takes, over `rounds` rounds of at least 30 ms each.
-fn median(rounds: usize, mut work: impl FnMut()) -> f64 {
-    work();
-    let mut times: Vec<f64> = (0..rounds)
-        .map(|_| {
-            let (start, mut count) = (seconds(), 0);
-            while seconds() - start < 0.03 {
-                work();
-                count += 1;
-            }
-            (seconds() - start) / f64::from(count)
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[rounds / 2]
-}
 
 /// FMA in GFLOP/s of one core, f64.
 #[multiversion(targets("x86_64+avx512f+avx512vl+fma", "x86_64+avx2+fma"))]

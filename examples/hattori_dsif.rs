@@ -18,120 +18,31 @@
 mod common;
 
 use common::{Effort, Outcome, at_most, head, reported};
-use pd_testkit::fem::table;
+use pd_testkit::hattori61::{EDGE, EdgeCrack, History, errors};
 use peridynamics::io::LinePlot;
 use peridynamics::models::ZeroEnergyControl;
 use peridynamics::models::elasticity::Intensity;
-use peridynamics::models::elasticity::catalogue::{GRAPHITE_EPOXY, GRAPHITE_EPOXY_DENSITY};
+use peridynamics::models::elasticity::catalogue::GRAPHITE_EPOXY_DENSITY;
 use peridynamics::prelude::*;
 use std::time::Instant;
 
-/// Edge and length of the crack in metres; end of the run in seconds.
-const EDGE: f64 = 0.1;
-const CRACK: f64 = 0.05;
-const END: f64 = 100e-6;
-/// Distances behind the tip at which K is read, in metres.
-const BEHIND: [f64; 2] = [2e-3, 5e-3];
-/// v_y = g y in 1/s.
-const GRADIENT: f64 = 250.0;
-
-type Material<Z> = Correspondence<LinearElastic<2>, Z>;
-type Plate<Z> = Body<f64, 2, Lattice<f64, 2>, Material<Z>, Precracked<2>>;
-
-struct Study {
-    stiffness: Stiffness<2>,
-    stroh: Stroh,
-    times: Vec<f64>,
-    /// Stress intensity of the finite elements by the same one-point formula, per distance.
-    fem: [Vec<Intensity>; 2],
-}
-
-/// A history of stress intensity at the times of the finite elements, per distance.
-struct History {
-    k: [Vec<Intensity>; 2],
-    steps: usize,
-    dt: f64,
-    seconds: f64,
-}
-
-impl Study {
-    /// The finite elements are those of 30°, whatever the fibre's angle.
-    fn new(degrees: f64) -> Outcome<Self> {
-        let stiffness = Stiffness::<2>::lamina(&GRAPHITE_EPOXY)?.rotated(degrees.to_radians());
-        let stroh = Stroh::new(&stiffness, 0.0)?;
-        let table = table("hattori61_30");
-        let times: Vec<f64> = table["t"].iter().copied().filter(|&t| t <= END * 1.0001).collect();
-        let fem = [("r2mm", 0), ("r5mm", 1)].map(|(name, r)| {
-            let columns = ["dux", "duy"].map(|u| &table[&format!("{u}_{name}")]);
-            let at = |i: usize| SVector::from(columns.map(|column| column[i]));
-            (0..times.len()).map(|i| stroh.intensity(BEHIND[r], &at(i))).collect()
-        });
-        Ok(Self { stiffness, stroh, times, fem })
-    }
-
-    fn run<Z: ZeroEnergyControl<f64, 2>>(
-        &self,
-        cells: u32,
-        m: f64,
-        control: Z,
-        rule: impl Fn(f64) -> TimeStep,
-    ) -> Outcome<History> {
-        let start = Instant::now();
-        let dx = EDGE / f64::from(cells);
-        let shape = Cuboid::new([0.0, -0.5 * EDGE], [EDGE, 0.5 * EDGE])?;
-        let grid = Grid::new(&shape, dx)?;
-        let family = Lattice::<f64, 2>::new(&grid, Horizon::Cells(m), Quadrature::None)?;
-        let law = LinearElastic(self.stiffness);
-        let policy = ShapePolicy { rule: IllConditioned::Refuse, limit: 1e6 };
-        let material = Correspondence::new(law, GRAPHITE_EPOXY_DENSITY, InfluenceFunction::Linear)?
-            .with_control(control)
-            .with_shape_policy(policy);
-        let crack = Segment::new([-dx, 0.0], [CRACK, 0.0])?;
-        let mut body: Plate<Z> = Body::new(family, material, Precracked::by(crack))?;
-        body.set_velocity(|x| [0.0, GRADIENT * x[1]].into());
-
-        // Opening between the rows next to the crack, interpolated between their nodes.
-        let row = cells as usize / 2;
-        let node = |column: usize, row: usize| grid.node([column, row]).expect("a full grid");
-        let opening = |body: &Plate<Z>, behind: f64| {
-            let place = (CRACK - behind) / dx - 0.5;
-            let (low, part) = (place.floor() as usize, place - place.floor());
-            let at = |row: usize| {
-                body.displacement(node(low, row)) * (1.0 - part)
-                    + body.displacement(node(low + 1, row)) * part
-            };
-            at(row) - at(row - 1)
-        };
-        let mut samples: Vec<(f64, [SVector<f64, 2>; 2])> = Vec::new();
-        let mut run = Run::new(&mut body, Loads::new(), rule(m * dx))?;
-        run.observe(1, |view: &View<'_, Plate<Z>>| {
-            samples.push((view.time, BEHIND.map(|r| opening(view.body, r))));
-            Ok(Flow::Continue)
-        });
-        run.until(END)?;
-        let (steps, dt) = (run.steps(), run.dt());
-        drop(run);
-        let k = [0, 1].map(|r| {
-            let at = |t: f64| {
-                let next = samples.partition_point(|s| s.0 < t).clamp(1, samples.len() - 1);
-                let ((t0, u0), (t1, u1)) = (&samples[next - 1], &samples[next]);
-                let part = ((t - t0) / (t1 - t0)).clamp(0.0, 1.0);
-                self.stroh.intensity(BEHIND[r], &(u0[r] * (1.0 - part) + u1[r] * part))
-            };
-            self.times.iter().map(|&t| at(t)).collect()
-        });
-        Ok(History { k, steps, dt, seconds: start.elapsed().as_secs_f64() })
-    }
-}
-
-/// Eq. 38 for K_I and K_II.
-fn errors(got: &[Intensity], reference: &[Intensity]) -> (f64, f64) {
-    let norm = |pick: fn(&Intensity) -> f64| {
-        let pairs = got.iter().zip(reference);
-        let apart: f64 = pairs.map(|(a, b)| (pick(a) - pick(b)).powi(2)).sum();
-        (apart / reference.iter().map(|b| pick(b).powi(2)).sum::<f64>()).sqrt()
-    };
-    (norm(|k| k.i), norm(|k| k.ii))
+/// A run by the paper's model: its history and the seconds it took.
+fn run<Z: ZeroEnergyControl<f64, 2>>(
+    plate: &EdgeCrack,
+    (cells, m): (usize, f64),
+    control: Z,
+    rule: impl Fn(f64) -> TimeStep,
+) -> Outcome<(History, f64)> {
+    let start = Instant::now();
+    let law = LinearElastic(plate.stiffness);
+    let policy = ShapePolicy { rule: IllConditioned::Refuse, limit: 1e6 };
+    let material = Correspondence::new(law, GRAPHITE_EPOXY_DENSITY, InfluenceFunction::Linear)?
+        .with_control(control)
+        .with_shape_policy(policy);
+    let mut body = plate.body::<f64, _>(cells, (m, Quadrature::None), material)?;
+    let rule = rule(m * EDGE / cells as f64);
+    let history = plate.history(&mut body, rule, VelocityVerlet::new())?;
+    Ok((history, start.elapsed().as_secs_f64()))
 }
 
 /// Stress intensity by finite elements (500 × 500 quads, least squares over the opening behind the
@@ -161,12 +72,12 @@ const SEEN: [usize; 7] = [10, 20, 30, 40, 60, 80, 100];
 
 /// Over the fibre angle (Figs. 7, 8), m = 2: the one-point values at r = 2 mm and 5 mm against the
 /// fitted ones of the finite elements, so that the distance from the tip adds to the error.
-fn over_the_angle(cells: u32) -> Outcome {
+fn over_the_angle(cells: usize) -> Outcome {
     println!("fibre angle, {cells}², m = 2 | K_I, r = 2 mm | K_I, r = 5 mm | largest |K_II| / K_I");
     for (degrees, first, second) in ANGLES {
-        let study = Study::new(degrees)?;
+        let study = EdgeCrack::new(degrees)?;
         let none = peridynamics::models::NoControl;
-        let history = study.run(cells, 2.0, none, near_limit)?;
+        let (history, _) = run(&study, (cells, 2.0), none, near_limit)?;
         let pairs = first.iter().zip(&second);
         let fem: Vec<_> = pairs.map(|(&i, &ii)| Intensity { i: i * 1e6, ii: ii * 1e6 }).collect();
         let [near, far] = [0, 1].map(|r| {
@@ -188,7 +99,7 @@ fn near_limit(_: f64) -> TimeStep {
 }
 
 /// Table 1 of the paper: (particles along an edge, m = 1 to 5).
-const PAPER: [(u32, [f64; 5]); 4] = [
+const PAPER: [(usize, [f64; 5]); 4] = [
     (200, [0.9898, 0.7387, 0.1137, 0.1643, 0.1374]),
     (300, [0.9317, 0.0520, 0.0861, 0.1122, 0.1130]),
     (400, [0.8990, 0.0273, 0.0751, 0.0844, 0.0847]),
@@ -197,7 +108,7 @@ const PAPER: [(u32, [f64; 5]); 4] = [
 
 fn main() -> Outcome {
     let effort = Effort::from_arguments();
-    let study = Study::new(30.0)?;
+    let study = EdgeCrack::new(30.0)?;
     let curve = |k: &[Intensity], pick: fn(&Intensity) -> f64| -> Vec<(f64, f64)> {
         study.times.iter().zip(k).map(|(t, k)| (t * 1e6, pick(k) / 1e6)).collect()
     };
@@ -210,7 +121,7 @@ fn main() -> Outcome {
     add("finite elements, r = 5 mm", &study.fem[1]);
 
     // Table 1.
-    let cases: Vec<(u32, Vec<usize>)> = effort.choose(
+    let cases: Vec<(usize, Vec<usize>)> = effort.choose(
         vec![(60, vec![3])],
         vec![(200, vec![1, 2, 3])],
         PAPER.iter().map(|(cells, _)| (*cells, (1..=5).collect())).collect(),
@@ -222,12 +133,12 @@ fn main() -> Outcome {
         for m in horizons {
             let printed = PAPER.iter().find(|row| row.0 == cells).map(|row| row.1[m - 1]);
             let printed = printed.map_or("–".to_owned(), |x| format!("{x:.3}"));
-            match study.run(cells, m as f64, peridynamics::models::NoControl, near_limit) {
-                Ok(history) => {
+            match run(&study, (cells, m as f64), peridynamics::models::NoControl, near_limit) {
+                Ok((history, seconds)) => {
                     let [near, far] = [0, 1].map(|r| errors(&history.k[r], &study.fem[r]));
                     println!(
                         "{cells}² | {m} | {printed} | {:.3} | {:.3} | {:.3} | {:.3} | {} | {:.1}",
-                        near.0, near.1, far.0, far.1, history.steps, history.seconds
+                        near.0, near.1, far.0, far.1, history.steps, seconds
                     );
                     if (cells, m) == (200, 3) {
                         at_200 = Some([near.0, far.0]);
@@ -254,7 +165,7 @@ fn main() -> Outcome {
     // What a control of zero-energy modes does to it.
     if effort != Effort::Short {
         let control = SillingControl::new(10e9, 0.3)?;
-        let history = study.run(200, 3.0, control, near_limit)?;
+        let (history, _) = run(&study, (200, 3.0), control, near_limit)?;
         let (i, ii) = errors(&history.k[1], &study.fem[1]);
         reported("  with Silling's control, r = 5 mm: K_I", i);
         reported("  with Silling's control, r = 5 mm: K_II", ii);
@@ -265,17 +176,17 @@ fn main() -> Outcome {
     let speed = (study.stiffness.c(1, 1, 1, 1) / GRAPHITE_EPOXY_DENSITY).sqrt();
     let careful = |horizon: f64| TimeStep::Unchecked(0.01 * horizon / speed);
     let none = peridynamics::models::NoControl;
-    let slow = study.run(cells, 3.0, none, careful)?;
-    let fast = study.run(cells, 3.0, none, near_limit)?;
+    let (slow, slow_seconds) = run(&study, (cells, 3.0), none, careful)?;
+    let (fast, fast_seconds) = run(&study, (cells, 3.0), none, near_limit)?;
     let (i, ii) = errors(&fast.k[1], &slow.k[1]);
     println!(
         "{cells}², m = 3: 0.01 δ/c_p = {:.2e} s, {} steps, {:.1} s; 0.9 of the limit = {:.2e} s, {} \
          steps, {:.1} s",
-        slow.dt, slow.steps, slow.seconds, fast.dt, fast.steps, fast.seconds
+        slow.dt, slow.steps, slow_seconds, fast.dt, fast.steps, fast_seconds
     );
     at_most("K_I changes by the time step", 0.01, i);
     at_most("K_II changes by the time step", 0.01, ii);
-    at_most("cost over that of the paper's step", 0.2, fast.seconds / slow.seconds);
+    at_most("cost over that of the paper's step", 0.2, fast_seconds / slow_seconds);
     reported("  steps over those of the paper's", fast.steps as f64 / slow.steps as f64);
     plots[0].write("out/hattori_dsif/k1.png")?;
     plots[1].write("out/hattori_dsif/k2.png")?;

@@ -17,19 +17,15 @@
 //! The paper's 4 mm/s are scaled by 4 (`--full`: not at all); the share of kinetic energy is
 //! reported. Force–displacement curves go to `out/willberg_dcb/`.
 
+use pd_testkit::beam::{Beam, CRACK, Look, MM};
 use peridynamics::damage::bond_energy::Uniform;
 use peridynamics::observe::Table;
 use peridynamics::prelude::*;
 use peridynamics::study::{Effort, damage, draw_damage};
 
-type Place = SVector<f64, 3>;
-
-const MM: f64 = 1e-3;
 const FOLDER: &str = "out/willberg_dcb";
 const LENGTH: f64 = 50.0 * MM;
-const HEIGHT: f64 = 20.0 * MM;
 const WIDTH: f64 = 6.0 * MM;
-const CRACK: f64 = 5.0 * MM;
 /// G_IC in J/m².
 const ENERGY: f64 = 12.0;
 /// Stiffness F/u of one arm in 3D for l_bc = 3 mm, in N/m (finite elements).
@@ -57,20 +53,6 @@ fn critical_displacement(a: f64) -> f64 {
     u0 + (u1 - u0) * (a - a0) / (a1 - a0)
 }
 
-/// One look at the beam: opening of one arm, growth, force of an arm, energies.
-struct Look {
-    u: f64,
-    growth: f64,
-    force: [f64; 2],
-    energies: Energies,
-}
-
-/// The nodes that are separated, by the damage of an open face on this lattice.
-fn cracks_of(body: &impl Dynamics<f64, 3>, start: &[f64], separated: f64) -> CrackPath<3> {
-    let gained = (0..body.nodes()).map(|i| (i, body.position(i), body.damage(i) - start[i]));
-    CrackPath::above(separated, body.unit(), gained)
-}
-
 fn other(error: impl std::fmt::Display) -> Error {
     Error::Other(error.to_string())
 }
@@ -84,31 +66,25 @@ fn open<M: StrainEnergy<f64, 3>>(
     table: &mut Measures,
 ) -> Result<()> {
     let dx = MM;
-    let corner = [0.0, -0.5 * HEIGHT, -0.5 * WIDTH];
-    let grid = Grid::new(&Cuboid::new(corner, [LENGTH, 0.5 * HEIGHT, 0.5 * WIDTH])?, dx)?;
-    let family = Lattice::<f64, 3>::new(&grid, Horizon::Cells(m), Quadrature::None)?;
+    let beam = Beam { length: LENGTH, width: WIDTH, dx, m, quadrature: Quadrature::None };
+    let family = beam.family::<f64>()?;
+    let grid = family.grid().clone();
     let plane = CrackPlane::lattice(&family, [0.0, 1.0, 0.0])?;
-    let separated = 0.85 * plane.face_damage();
+    let separated = Beam::separated(&plane);
     let foster = BondEnergy::<Uniform>::from_energy(FractureEnergy::new(ENERGY)?, &plane)?;
     let foster = if printed { foster.with_printed_quarter() } else { foster };
     let energy = if printed { 2.0 * ENERGY } else { ENERGY };
-    let [up, down] =
-        [1.0, -1.0].map(|side| grid.select(move |x| x[0] < 3.0 * dx && side * x[1] > 0.0));
-    let edge = [-MM, 0.0, -WIDTH];
-    let notch = Polygon::parallelogram(edge, [CRACK + MM, 0.0, 0.0], [0.0, 0.0, 2.0 * WIDTH])?;
-    let policy = Breaking::new(foster.sparing(&up.union(&down))).precracked(notch).leaving_family();
-    let mut body = Body::new(family, material, policy)?;
+    let [up, down] = beam.arms(&grid);
+    let mut body = beam.body(family, material, foster, 1)?;
     let start = damage(&body);
-    let tip = Place::new(CRACK, 0.0, 0.0);
-    let ahead = Place::new(1.0, 0.0, 0.0);
 
     let quarter = if printed { ", printed ¼" } else { "" };
     let label = format!("{model}, m = {m}{quarter}");
     let files = format!("{model}_{m}{}", if printed { "_printed" } else { "" }).replace(' ', "_");
     let file = format!("{FOLDER}/curve_{files}.csv");
-    let loads = Loads::new().velocity(&up, 1, speed).velocity(&down, 1, -speed);
-    let mut run = Run::new(&mut body, loads, TimeStep::Safety(0.5))?.with_energies();
-    let (above, below) = (up.clone(), down.clone());
+    let mut run =
+        Run::new(&mut body, beam.pulled(&grid, speed), TimeStep::Safety(0.5))?.with_energies();
+    let (above, below) = (up, down);
     run.observe(
         20,
         Table::new(file)
@@ -117,24 +93,10 @@ fn open<M: StrainEnergy<f64, 3>>(
             .column("F below [N]", move |view| reaction(view.body, &below)[1])
             .column("kinetic share", |view| view.energies.map_or(0.0, |e| e.kinetic_share())),
     );
-    let mut looks: Vec<Look> = Vec::new();
-    let grown = |looks: &[Look]| looks.last().map_or(0.0, |look| look.growth);
-    while grown(&looks) < 11.0 * MM && speed * run.time() < 40e-6 {
-        run.steps_more(10)?;
-        let cracks = cracks_of(run.body(), &start, separated);
-        let front = cracks.tip(&tip, &ahead)[0];
-        // A separated node at x stands for its cell up to x + Δx/2.
-        let growth = if front > CRACK { front + 0.5 * dx - CRACK } else { 0.0 };
-        looks.push(Look {
-            u: speed * run.time(),
-            growth,
-            force: [reaction(run.body(), &up)[1], reaction(run.body(), &down)[1]],
-            energies: run.energies().ok_or_else(|| other("no energies"))?,
-        });
-    }
+    let looks = beam.open(&mut run, speed, 11.0 * MM, (&start, separated))?;
     let steps = run.steps();
     drop(run);
-    let cracks = cracks_of(&body, &start, separated);
+    let cracks = Beam::cracks(&body, &start, separated);
     let picture = format!("{FOLDER}/beam_{files}.png");
     draw_damage(&body, (100.0, [0, 1]), |x| x[2].abs() < dx, &format!("DCB {label}"), picture)?;
 
@@ -170,11 +132,7 @@ fn open<M: StrainEnergy<f64, 3>>(
     table.hard_most(&name("forces of the arms apart"), late.map(unequal).fold(0.0, f64::max), 0.01);
     for growth in [5.0, 10.0] {
         let at = looks.iter().find(|l| l.growth >= growth * MM);
-        let recovered = at.map_or(f64::NAN, |l| {
-            // Work of both arms less what unloading gives back.
-            let e = l.energies;
-            (e.external - e.strain - e.kinetic) / (WIDTH * l.growth)
-        });
+        let recovered = at.map_or(f64::NAN, |l| l.energy_release_rate(WIDTH));
         let what = name(&format!("energy release rate over {growth} mm [J/m²]"));
         table.hard_near(&what, recovered, energy, 0.15 * energy);
     }
