@@ -5,7 +5,7 @@
 //! the lines of the first table that contain all of them and write nothing (`-- LPS 3D f64`).
 
 use multiversion::multiversion;
-use pd_testkit::clock::median;
+use pd_testkit::clock::{machine, median};
 use peridynamics::prelude::*;
 use std::fmt::Write;
 use std::hint::black_box;
@@ -322,28 +322,18 @@ fn scaling(report: &mut Report) {
     report.say(&format!("{setup:.2} s, {bytes} bytes per node."));
 }
 
-/// The first line of a command's output.
-fn ask(command: &str, argument: &str) -> String {
-    let output = std::process::Command::new(command).arg(argument).output();
-    output.map_or(String::new(), |o| String::from_utf8_lossy(&o.stdout).trim().to_owned())
-}
-
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let all = words.is_empty();
     let mut report = Report { words, text: String::new(), peak: fma_peak(), bandwidth: triad() };
-    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = info.lines().find_map(|l| l.strip_prefix("model name")).unwrap_or("unknown");
     let mut head = String::new();
     writeln!(
         head,
-        "Written by `cargo bench --bench report` on {}; {}, {} cores. One core: {:.0} GFLOP/s of fused \
+        "Written by `cargo bench --bench report` on {}. One core: {:.0} GFLOP/s of fused \
          multiply-add in f64, {:.1} GB/s of triad. Processor time of one thread: states, bond test \
          and forces of a step (2D {EDGE2}², 3D {EDGE3}³ nodes, m = {M}; nothing breaks). Flops are \
          counted in the source; traffic takes every array of the body once.\n",
-        ask("date", "+%F"),
-        model.trim_start_matches([' ', '\t', ':']),
-        std::thread::available_parallelism().map_or(0, usize::from),
+        machine(),
         report.peak,
         report.bandwidth,
     )

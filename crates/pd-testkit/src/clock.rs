@@ -27,3 +27,17 @@ pub fn median(rounds: usize, mut work: impl FnMut()) -> f64 {
     times.sort_by(f64::total_cmp);
     times[rounds / 2]
 }
+
+/// The first line of a command's output; empty if there is no such command.
+fn ask(command: &str, argument: &str) -> String {
+    let output = std::process::Command::new(command).arg(argument).output();
+    output.map_or(String::new(), |o| String::from_utf8_lossy(&o.stdout).trim().to_owned())
+}
+
+/// Date, processor and number of cores, for the head of a generated table.
+pub fn machine() -> String {
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = info.lines().find_map(|line| line.strip_prefix("model name")).unwrap_or("unknown");
+    let cores = std::thread::available_parallelism().map_or(0, usize::from);
+    format!("{}; {}, {cores} cores", ask("date", "+%F"), model.trim_start_matches([' ', '\t', ':']))
+}
