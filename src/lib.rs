@@ -88,6 +88,8 @@ pub use pd_io as io;
 pub use pd_models as models;
 
 #[cfg(feature = "io")]
+pub mod checkpoint;
+#[cfg(feature = "io")]
 pub mod observe;
 #[cfg(feature = "io")]
 pub mod study;

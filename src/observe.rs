@@ -105,12 +105,20 @@ pub struct Table<'a, B> {
     path: std::path::PathBuf,
     history: Option<History>,
     columns: Vec<(String, Column<'a, B>)>,
+    /// Time up to which rows of an earlier run stay.
+    last: Option<f64>,
 }
 
 impl<'a, B> Table<'a, B> {
     /// A table in this file.
     pub fn new(path: impl AsRef<Path>) -> Self {
-        Self { path: path.as_ref().to_owned(), history: None, columns: Vec::new() }
+        Self { path: path.as_ref().to_owned(), history: None, columns: Vec::new(), last: None }
+    }
+    /// Goes on with the table of a run that was stopped: rows up to the time `last` in seconds stay
+    /// (none of them for `None`).
+    pub fn resume(mut self, last: Option<f64>) -> Self {
+        self.last = last;
+        self
     }
     /// Adds a column.
     pub fn column(mut self, name: &str, value: impl Fn(&View<'_, B>) -> f64 + 'a) -> Self {
@@ -126,7 +134,11 @@ impl<B> Observer<B> for Table<'_, B> {
             empty => {
                 let names = self.columns.iter().map(|(name, _)| name.as_str());
                 let names: Vec<&str> = std::iter::once("time [s]").chain(names).collect();
-                empty.insert(History::create(&self.path, &names).map_err(output)?)
+                let history = match self.last {
+                    Some(last) => History::resume(&self.path, &names, last),
+                    None => History::create(&self.path, &names),
+                };
+                empty.insert(history.map_err(output)?)
             }
         };
         let values = self.columns.iter().map(|(_, value)| value(view));
@@ -196,6 +208,24 @@ impl<B, const D: usize> FieldOutput<B, D> {
         take: fn(&B) -> Snapshot<D>,
     ) -> Result<Self> {
         Ok(Self { series: Series::create(folder, name).map_err(output)?, take })
+    }
+    /// Goes on with the series of a run that was stopped: steps up to the time `last` in seconds
+    /// stay (none of them for `None`).
+    ///
+    /// # Errors
+    /// As [`create`](Self::create), and for a series that cannot be read.
+    pub fn resume(
+        folder: impl AsRef<Path>,
+        name: &str,
+        take: fn(&B) -> Snapshot<D>,
+        last: Option<f64>,
+    ) -> Result<Self> {
+        match last {
+            Some(last) => {
+                Ok(Self { series: Series::resume(folder, name, last).map_err(output)?, take })
+            }
+            None => Self::create(folder, name, take),
+        }
     }
 }
 

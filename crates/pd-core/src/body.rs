@@ -6,6 +6,7 @@ use crate::family::{BondKernel, Family, Pair, Tally, Visit};
 use crate::field::Field;
 use crate::material::{Material, StrainEnergy, StressState};
 use crate::record::Record;
+use crate::state::{StateReader, StateWriter, unlike};
 use crate::{Error, Real, Result};
 use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
@@ -758,6 +759,16 @@ pub trait Dynamics<T: Real, const D: usize> {
     fn is_linear(&self) -> bool;
     /// −∂f_i/∂u_i of every site i about the reference configuration, in Pa/Δx².
     fn diagonal_blocks(&self) -> Field<T, SMatrix<T, D, D>>;
+    /// Writes all that changes during a run.
+    ///
+    /// # Errors
+    /// What the writer reports.
+    fn save(&self, state: &mut StateWriter<'_>) -> std::io::Result<()>;
+    /// Takes back what [`save`](Self::save) wrote; on an error the body is as before.
+    ///
+    /// # Errors
+    /// [`Error::State`] for a state of another body.
+    fn restore(&mut self, state: &mut StateReader<'_>) -> Result<()>;
 }
 
 /// What breaking bonds costs: the strain energy that the nodes which lost bonds had before, less
@@ -813,6 +824,8 @@ pub(crate) trait Dissipated<B>: BreakEvents<B> {
     fn start(&mut self, dt: f64);
     /// In J since the start.
     fn total(&self) -> f64;
+    /// Goes on from a total in J.
+    fn resume(&mut self, total: f64);
 }
 
 impl<T, const D: usize, F, M, P> Dissipated<Body<T, D, F, M, P>> for Dissipation<T, D, F, M>
@@ -827,6 +840,9 @@ where
     }
     fn total(&self) -> f64 {
         self.total
+    }
+    fn resume(&mut self, total: f64) {
+        self.total = total;
     }
 }
 
@@ -1055,5 +1071,47 @@ where
         let constants = (&self.node_const, &self.family_const);
         let bits = self.bits.as_ref();
         crate::diagonal::blocks(&self.family, &self.material, &self.table, bits, constants)
+    }
+    fn save(&self, state: &mut StateWriter<'_>) -> std::io::Result<()> {
+        state.numbers("displacements", self.u.as_slice())?;
+        state.numbers("velocities", self.v.as_slice())?;
+        state.numbers("forces", self.force.as_slice())?;
+        state.numbers("node states", self.node_state.as_slice())?;
+        state.numbers("values of the criterion", self.criterion_value.as_slice())?;
+        if M::FOLLOWS_DAMAGE {
+            state.numbers("node constants", self.node_const.as_slice())?;
+            state.numbers("family constants", self.family_const.as_slice())?;
+        }
+        state.bytes("bonds", self.bits.as_ref().map_or(&[], F::bits_as_bytes))?;
+        state.counts("broken bonds", &[self.broken])?;
+        state.numbers("worst index", &[self.worst])
+    }
+    fn restore(&mut self, state: &mut StateReader<'_>) -> Result<()> {
+        let u = state.field("displacements", &self.u)?;
+        let v = state.field("velocities", &self.v)?;
+        let force = state.field("forces", &self.force)?;
+        let node_state = state.field("node states", &self.node_state)?;
+        let criterion_value = state.field("values of the criterion", &self.criterion_value)?;
+        let constants = if M::FOLLOWS_DAMAGE {
+            let node = state.field("node constants", &self.node_const)?;
+            Some((node, state.field("family constants", &self.family_const)?))
+        } else {
+            None
+        };
+        let bytes = state.bytes("bonds")?;
+        let bits = match &self.bits {
+            Some(_) => self.family.bits_from_bytes(bytes).map(Some),
+            None => bytes.is_empty().then_some(None),
+        };
+        let bits = bits.ok_or_else(|| unlike("bonds", "are not those of this body".to_owned()))?;
+        let [broken] = state.counts("broken bonds")?;
+        let worst: Vec<f64> = state.numbers("worst index", 1)?;
+        if let Some((node, family)) = constants {
+            (self.node_const, self.family_const) = (node, family);
+        }
+        (self.u, self.v, self.force) = (u, v, force);
+        (self.node_state, self.criterion_value) = (node_state, criterion_value);
+        (self.bits, self.broken, self.worst) = (bits, broken, worst[0]);
+        Ok(())
     }
 }

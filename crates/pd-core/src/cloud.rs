@@ -558,6 +558,24 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
             *mark.get_mut() = from.load(Relaxed);
         }
     }
+    fn bits_as_bytes(bits: &CloudBits) -> &[u8] {
+        &bits.bytes
+    }
+    fn bits_from_bytes(&self, bytes: &[u8]) -> Option<CloudBits> {
+        let mut bits = self.intact();
+        if bits.bytes.len() != bytes.len() {
+            return None;
+        }
+        bits.bytes.copy_from_slice(bytes);
+        // A bond is broken for both of its ends.
+        let agree = (0..self.nodes()).into_par_iter().all(|node| {
+            self.row(node).iter().enumerate().all(|(at, &other)| {
+                let back = self.row(other as usize).binary_search(&(node as u32));
+                back.is_ok_and(|back| bits.intact(other as usize, back) == bits.intact(node, at))
+            })
+        });
+        agree.then_some(bits)
+    }
     fn neighbours(
         &self,
         node: usize,

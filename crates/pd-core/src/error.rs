@@ -288,6 +288,33 @@ pub enum Error {
         "this body holds no bond bits (NoDamage): make it with Precracked or Breaking to cut bonds"
     )]
     NoBits,
+    /// A run was asked to stop before its end.
+    #[error(
+        "interrupted after step {step}, t = {time:e} s{}",
+        kept.as_ref().map_or_else(
+            || ": the state was not kept".to_owned(),
+            |place| format!(": the state is in {place}, from which Checkpoint::resume goes on")
+        )
+    )]
+    Interrupted {
+        /// Steps taken.
+        step: usize,
+        /// Time in seconds.
+        time: f64,
+        /// Where the state is kept, if it is.
+        kept: Option<String>,
+    },
+    /// A kept state is not one of this scene.
+    #[error(
+        "the state does not fit this run: its part '{part}' {reason}. Build body, loads and run as \
+         they were when it was kept"
+    )]
+    State {
+        /// The part.
+        part: &'static str,
+        /// What does not fit.
+        reason: String,
+    },
     /// An observer or output failed.
     #[error("{0}")]
     Other(String),

@@ -162,6 +162,10 @@ pub trait Family<T: Real, const D: usize>: Send + Sync + Sized {
     fn copy_bits(bits: &Self::Bits) -> Self::Bits;
     /// Marks in `bits` the nodes that are marked in `other`, and no others.
     fn copy_marks(bits: &mut Self::Bits, other: &Self::Bits);
+    /// The bits as bytes, to be kept.
+    fn bits_as_bytes(bits: &Self::Bits) -> &[u8];
+    /// The bits that were kept; none if they are not a part of this family's bonds.
+    fn bits_from_bytes(&self, bytes: &[u8]) -> Option<Self::Bits>;
     /// Visits the neighbours of `node` in ascending order, broken ones too.
     fn neighbours(
         &self,

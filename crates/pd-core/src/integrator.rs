@@ -3,6 +3,7 @@
 use crate::body::{BreakEvents, Dynamics};
 use crate::family::Tally;
 use crate::loads::Bound;
+use crate::state::{StateReader, StateWriter};
 use crate::{Real, Result};
 
 /// One step of an explicit scheme.
@@ -19,6 +20,22 @@ pub trait Integrator<T: Real, const D: usize> {
         clock: Clock,
         events: &mut dyn BreakEvents<B>,
     ) -> Result<Tally>;
+    /// Writes what the scheme remembers from step to step; most remember nothing.
+    ///
+    /// # Errors
+    /// What the writer reports.
+    fn save(&self, state: &mut StateWriter<'_>) -> std::io::Result<()> {
+        let _ = state;
+        Ok(())
+    }
+    /// Takes back what [`save`](Self::save) wrote, for a body with `sites` sites.
+    ///
+    /// # Errors
+    /// [`Error::State`](crate::Error::State) for the state of another scheme or body.
+    fn restore(&mut self, state: &mut StateReader<'_>, sites: usize) -> Result<()> {
+        let _ = (state, sites);
+        Ok(())
+    }
 }
 
 /// Where a run stands.

@@ -741,6 +741,26 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
             *mark.get_mut() = from.load(Relaxed);
         }
     }
+    fn bits_as_bytes(bits: &LatticeBits) -> &[u8] {
+        &bits.bytes
+    }
+    fn bits_from_bytes(&self, bytes: &[u8]) -> Option<LatticeBits> {
+        let mut bits = self.intact();
+        let fits = bits.bytes.len() == bytes.len()
+            && bits.bytes.iter().zip(bytes).all(|(all, kept)| kept & !all == 0);
+        if !fits {
+            return None;
+        }
+        let half = self.half();
+        for (at, kept) in bytes.iter().enumerate() {
+            let lost = bits.bytes[at] & !kept;
+            for lane in (0..LANES).filter(|lane| lost >> lane & 1 == 1) {
+                self.lose(&mut bits, at / half * LANES + lane, half + at % half);
+            }
+        }
+        Self::clear_marks(&mut bits);
+        Some(bits)
+    }
     fn neighbours(
         &self,
         node: usize,

@@ -5,6 +5,7 @@ use crate::family::Tally;
 use crate::field::Field;
 use crate::integrator::{Clock, Integrator};
 use crate::loads::Bound;
+use crate::state::{StateReader, StateWriter};
 use crate::{Real, Result};
 use nalgebra::SVector;
 
@@ -125,6 +126,20 @@ impl<T: Real, const D: usize> Integrator<T, D> for DynamicRelaxation<T, D> {
         events: &mut dyn BreakEvents<B>,
     ) -> Result<Tally> {
         self.advance(body, loads, clock, Some(events))
+    }
+    fn save(&self, state: &mut StateWriter<'_>) -> std::io::Result<()> {
+        state.counts("relaxation", &[usize::from(self.started)])?;
+        state.numbers("largest loads", &[self.largest])?;
+        state.numbers("forces before", self.previous.as_slice())
+    }
+    fn restore(&mut self, state: &mut StateReader<'_>, sites: usize) -> Result<()> {
+        let [started] = state.counts("relaxation")?;
+        let largest: Vec<f64> = state.numbers("largest loads", 1)?;
+        // Nothing is remembered before the first step.
+        let sites = if started == 0 { 0 } else { sites };
+        self.previous = state.field("forces before", &Field::zeros(sites))?;
+        (self.started, self.largest) = (started != 0, largest[0]);
+        Ok(())
     }
 }
 

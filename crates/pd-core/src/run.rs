@@ -7,10 +7,13 @@ use crate::integrator::{Clock, Integrator, VelocityVerlet};
 use crate::loads::{Bound, Loads};
 use crate::material::StrainEnergy;
 use crate::relaxation::{DynamicRelaxation, Relaxed};
+use crate::state::{Kept, StateReader, StateWriter, unlike};
 use crate::time_step::{Spectrum, require_stable, spectrum};
 use crate::{Error, Real, Result};
 use std::fmt;
+use std::io::Write;
 use std::marker::PhantomData;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How the time step is chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,6 +128,9 @@ struct Account<'a, B> {
     support_kinetic: f64,
 }
 
+/// Keeps a state and says where.
+type Keeper<'a> = Box<dyn FnMut(&Kept<'_>) -> Result<String> + 'a>;
+
 /// A run of a body through time.
 ///
 /// ```text
@@ -144,6 +150,8 @@ pub struct Run<'a, T: Real, const D: usize, B, I = VelocityVerlet<T>> {
     step: usize,
     observers: Vec<(usize, Box<dyn Observer<B> + 'a>)>,
     account: Option<Account<'a, B>>,
+    keeper: Option<(usize, Keeper<'a>)>,
+    stop: Option<&'a AtomicBool>,
     scalar: PhantomData<T>,
 }
 
@@ -184,6 +192,8 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
             step: 0,
             observers: Vec::new(),
             account: None,
+            keeper: None,
+            stop: None,
             scalar: PhantomData,
         };
         run.choose_time_step()?;
@@ -230,6 +240,82 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
         self.observers.push((every.max(1), Box::new(observer)));
         self
     }
+    /// Offers the state to `keeper` every `every` steps, after the observers, and when the run is
+    /// [interrupted](Self::stop_on). The keeper says where it keeps it.
+    pub fn keep(
+        &mut self,
+        every: usize,
+        keeper: impl FnMut(&Kept<'_>) -> Result<String> + 'a,
+    ) -> &mut Self {
+        self.keeper = Some((every.max(1), Box::new(keeper)));
+        self
+    }
+    /// Ends the run with [`Error::Interrupted`] after the step in which `flag` becomes true. The
+    /// state is kept first if there is a [keeper](Self::keep).
+    pub fn stop_on(&mut self, flag: &'a AtomicBool) -> &mut Self {
+        self.stop = Some(flag);
+        self
+    }
+    /// Goes on from a state that this scene's run wrote through [`keep`](Self::keep): what follows
+    /// is the same to the last bit as without the interruption. Observers are not called for the
+    /// step of the state, they were then.
+    ///
+    /// # Errors
+    /// [`Error::State`] for bytes that are no whole state, the state of another scene (grid,
+    /// precision, kind of material, criterion or integrator; the forces are computed anew and
+    /// compared), or of a run with another fixed time step or without
+    /// [energies](Self::with_energies). After an error the run must not be used.
+    pub fn resume(&mut self, state: &[u8]) -> Result<()> {
+        let mut state = StateReader::new(state);
+        let [step, refreshed, accounts, known] = state.counts("run")?;
+        let clock: Vec<f64> = state.numbers("clock", 2)?;
+        let (time, dt) = (clock[0], clock[1]);
+        if let TimeStep::Fixed(given) | TimeStep::Unchecked(given) = self.rule
+            && given != dt
+        {
+            return Err(unlike("clock", format!("has Δt = {dt:e} s, this run's is {given:e} s")));
+        }
+        let spectrum: Vec<f64> = state.numbers("spectrum", known.min(3))?;
+        let energies: Vec<f64> = state.numbers("energies", accounts.min(4))?;
+        match (&mut self.account, &energies[..]) {
+            (None, []) => {}
+            (Some(account), &[external, power, support_kinetic, dissipated]) => {
+                (account.external, account.power) = (external, power);
+                account.support_kinetic = support_kinetic;
+                account.dissipated.resume(dissipated);
+            }
+            (account, _) => {
+                let (has, runs) = if account.is_none() { ("are", "not") } else { ("are not", "") };
+                let reason = format!("{has} in it, but are {runs} accounted for by this run");
+                return Err(unlike("energies", reason));
+            }
+        }
+        self.integrator.restore(&mut state, self.body.u().len())?;
+        let body = state.clone();
+        self.body.restore(&mut state)?;
+        state.finish()?;
+        let kept = self.body.force().clone();
+        self.body.evaluate()?;
+        self.loads.add_forces(self.body, time);
+        let size = |f: &[T]| f.iter().fold(0.0, |m, x| x.to_f64().abs().max(m));
+        let pairs = kept.as_slice().iter().zip(self.body.force().as_slice());
+        let apart = pairs.fold(0.0, |m, (a, b)| (*a - *b).to_f64().abs().max(m));
+        let largest = size(kept.as_slice());
+        if apart > T::EPSILON.sqrt() * largest {
+            let reason = format!(
+                "are not those of this material and these loads: they differ by {:.1e} of the                  largest",
+                apart / largest
+            );
+            return Err(unlike("forces", reason));
+        }
+        // A material may remember in its states how it came there.
+        self.body.restore(&mut { body })?;
+        if let &[largest, lowest, residual] = &spectrum[..] {
+            self.critical = Some(Spectrum { largest, lowest, residual });
+        }
+        (self.step, self.time, self.dt, self.broken_at_refresh) = (step, time, dt, refreshed);
+        Ok(())
+    }
     /// Time step Δt in seconds.
     pub fn dt(&self) -> f64 {
         self.dt
@@ -262,6 +348,44 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
     }
 
     fn call_observers(&mut self, end: f64) -> Result<Flow> {
+        let flow = self.show(end)?;
+        let interrupted = self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed));
+        let (step, time) = (self.step, self.time);
+        let due = |every: usize| step > 0 && step.is_multiple_of(every);
+        let mut place = None;
+        if self.keeper.as_ref().is_some_and(|(every, _)| interrupted || due(*every)) {
+            self.guard()?;
+            let accounts = self.account.as_ref().map(|account| {
+                let Account { external, power, support_kinetic, dissipated, .. } = account;
+                [*external, *power, *support_kinetic, dissipated.total()]
+            });
+            let (body, integrator) = (&*self.body, &self.integrator);
+            let (critical, refreshed, dt) = (self.critical, self.broken_at_refresh, self.dt);
+            let write = |out: &mut dyn Write| {
+                let spectrum = critical.map(|s| [s.largest, s.lowest, s.residual]);
+                let spectrum: &[f64] = match &spectrum {
+                    Some(values) if values.iter().all(|x| x.is_finite()) => values,
+                    _ => &[],
+                };
+                let energies: &[f64] = accounts.as_ref().map_or(&[], |values| values);
+                let mut state = StateWriter::new(out);
+                state.counts("run", &[step, refreshed, energies.len(), spectrum.len()])?;
+                state.numbers("clock", &[time, dt])?;
+                state.numbers("spectrum", spectrum)?;
+                state.numbers("energies", energies)?;
+                integrator.save(&mut state)?;
+                body.save(&mut state)
+            };
+            let kept = Kept { step, time, interrupted, write: &write };
+            if let Some((_, keeper)) = &mut self.keeper {
+                place = Some(keeper(&kept)?);
+            }
+        }
+        if interrupted { Err(Error::Interrupted { step, time, kept: place }) } else { Ok(flow) }
+    }
+
+    /// Calls the observers that are due.
+    fn show(&mut self, end: f64) -> Result<Flow> {
         let due = |every: usize| self.step.is_multiple_of(every);
         if !self.observers.iter().any(|(every, _)| due(*every)) {
             return Ok(Flow::Continue);
@@ -288,7 +412,7 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
     ///
     /// # Errors
     /// [`Error::NotFinite`] and [`Error::BlowUp`] with step, time and node; loads that are not finite
-    /// at some time; what observers and the evaluation of forces report.
+    /// at some time; [`Error::Interrupted`] if [asked to stop](Self::stop_on); what observers and the evaluation of forces report.
     pub fn until(&mut self, end: f64) -> Result<()> {
         Error::check(end.is_finite(), "end time [s]", end, "finite")?;
         if self.step == 0 && self.call_observers(end)? == Flow::Stop {

@@ -1,7 +1,7 @@
 //! CSV histories that survive a killed run.
 
-use crate::error::{Error, Result, one_per_node};
-use std::fs::File;
+use crate::error::{Error, Result, one_per_node, write_whole};
+use std::fs::{File, OpenOptions};
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -30,12 +30,33 @@ impl History {
                 std::fs::create_dir_all(folder)?;
             }
             let mut file = File::create(&path)?;
-            let names: Vec<String> = columns.iter().map(|name| quoted(name)).collect();
-            file.write_all(format!("{}\n", names.join(",")).as_bytes())?;
+            file.write_all(head(columns).as_bytes())?;
             Ok(file)
         };
         let file = open().map_err(|e| Error::file(&path, e))?;
         Ok(Self { path, file, columns: columns.iter().map(|&c| c.to_owned()).collect(), rows: 0 })
+    }
+    /// Goes on with a table of these columns, the first of which is a time: rows up to the time
+    /// `last` in seconds stay. Later ones, and a row that was cut short, go.
+    ///
+    /// # Errors
+    /// [`Error::Unreadable`], [`Error::Unfit`] for a table of other columns, [`Error::File`].
+    pub fn resume(path: impl AsRef<Path>, columns: &[&str], last: f64) -> Result<Self> {
+        let path = path.as_ref().to_owned();
+        let text = std::fs::read_to_string(&path).map_err(|e| Error::unreadable(&path, e))?;
+        let head = head(columns);
+        let Some(rows) = text.strip_prefix(&head) else {
+            return Err(Error::unfit(&path, format!("has other columns than {}", head.trim_end())));
+        };
+        let whole = rows.split_inclusive('\n').filter(|row| row.ends_with('\n'));
+        let time = |row: &str| row.split([',', '\n']).next().and_then(|t| t.parse::<f64>().ok());
+        let kept: Vec<&str> =
+            whole.take_while(|row| time(row).is_some_and(|t| t <= last)).collect();
+        write_whole(&path, (head + &kept.concat()).as_bytes())?;
+        let file = OpenOptions::new().append(true).open(&path);
+        let file = file.map_err(|e| Error::file(&path, e))?;
+        let columns = columns.iter().map(|&c| c.to_owned()).collect();
+        Ok(Self { path, file, columns, rows: kept.len() })
     }
     /// Adds a row.
     ///
@@ -52,10 +73,21 @@ impl History {
         }
         let cells: Vec<String> = values.iter().map(|v| format!("{v:e}")).collect();
         let line = format!("{}\n", cells.join(","));
-        self.file.write_all(line.as_bytes()).map_err(|e| Error::file(&self.path, e))?;
+        let whole = self.file.metadata().map(|data| data.len());
+        if let Err(error) = self.file.write_all(line.as_bytes()) {
+            // A part of a row is none; that it may stay on a broken disk changes nothing.
+            let _ = whole.and_then(|length| self.file.set_len(length));
+            return Err(Error::file(&self.path, error));
+        }
         self.rows += 1;
         Ok(())
     }
+}
+
+/// The first line.
+fn head(columns: &[&str]) -> String {
+    let names: Vec<String> = columns.iter().map(|name| quoted(name)).collect();
+    names.join(",") + "\n"
 }
 
 /// A name as RFC 4180 wants it.
@@ -99,7 +131,7 @@ impl Ledger {
             if let Some(folder) = path.parent() {
                 std::fs::create_dir_all(folder)?;
             }
-            let options = File::options().create(true).append(true).read(true).clone();
+            let options = OpenOptions::new().create(true).append(true).read(true).clone();
             let mut file = options.open(&path)?;
             let mut bytes = Vec::new();
             file.read_to_end(&mut bytes)?;

@@ -19,6 +19,22 @@ pub enum Error {
         /// The cause.
         source: std::io::Error,
     },
+    /// The file system refused to read.
+    #[error("cannot read {}: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The cause.
+        source: std::io::Error,
+    },
+    /// A file that a run cannot go on from.
+    #[error("cannot go on from {}: it {reason}", path.display())]
+    Unfit {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        reason: String,
+    },
     /// A PNG could not be encoded.
     #[error("cannot encode {}: {source}", path.display())]
     Png {
@@ -143,6 +159,12 @@ impl Error {
     pub(crate) fn file(path: &Path, source: std::io::Error) -> Self {
         Self::File { path: path.to_owned(), source }
     }
+    pub(crate) fn unreadable(path: &Path, source: std::io::Error) -> Self {
+        Self::Unreadable { path: path.to_owned(), source }
+    }
+    pub(crate) fn unfit(path: &Path, reason: String) -> Self {
+        Self::Unfit { path: path.to_owned(), reason }
+    }
 }
 
 /// Refuses the first value that is not finite.
@@ -174,6 +196,14 @@ pub(crate) fn one_per_node(path: &Path, field: &str, given: usize, nodes: usize)
 /// Writes a file beside its place and renames it when it is on the disk: it is there whole or not
 /// at all, and what was there before stays until then.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
+    write_whole_with(path, &|file| file.write_all(bytes))
+}
+
+/// As [`write_whole`], of what `fill` writes into the file.
+pub(crate) fn write_whole_with(
+    path: &Path,
+    fill: &dyn Fn(&mut File) -> std::io::Result<()>,
+) -> Result<()> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -184,7 +214,7 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     let beside = PathBuf::from(beside);
     let write = || {
         let mut file = File::create(&beside)?;
-        file.write_all(bytes)?;
+        fill(&mut file)?;
         // Before the rename: else a power cut may leave the new name on an empty file.
         file.sync_all()?;
         std::fs::rename(&beside, path)

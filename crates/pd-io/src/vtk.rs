@@ -171,7 +171,30 @@ impl Series {
     /// # Errors
     /// [`Error::Name`] for a name that is empty or no plain file name, [`Error::File`].
     pub fn create(folder: impl AsRef<Path>, name: &str) -> Result<Self> {
-        let folder = folder.as_ref().to_owned();
+        let series = Self::named(folder.as_ref(), name)?;
+        series.write_index(&[])?;
+        Ok(series)
+    }
+    /// Goes on with a series: its steps up to the time `last` in seconds stay, later ones go.
+    ///
+    /// # Errors
+    /// As [`create`](Self::create), [`Error::Unreadable`], and [`Error::Unfit`] for an index that
+    /// no series wrote.
+    pub fn resume(folder: impl AsRef<Path>, name: &str, last: f64) -> Result<Self> {
+        let mut series = Self::named(folder.as_ref(), name)?;
+        let path = series.path();
+        let index = std::fs::read_to_string(&path).map_err(|e| Error::unreadable(&path, e))?;
+        for entry in index.split("<DataSet timestep=\"").skip(1) {
+            let time = entry.split('"').next().and_then(|time| time.parse::<f64>().ok());
+            let no_time = || Error::unfit(&path, "has a step without a time".to_owned());
+            series.times.push(time.ok_or_else(no_time)?);
+        }
+        series.times.retain(|&time| time <= last);
+        series.write_index(&series.times)?;
+        Ok(series)
+    }
+    fn named(folder: &Path, name: &str) -> Result<Self> {
+        let folder = folder.to_owned();
         let reason = if name.is_empty() {
             Some("is empty: the files of a series start with it")
         } else if name.contains(['/', '\\']) {
@@ -184,9 +207,7 @@ impl Series {
         if let Some(reason) = reason {
             return Err(Error::Name { path: folder, name: name.to_owned(), reason });
         }
-        let series = Self { folder, name: name.to_owned(), times: Vec::new() };
-        series.write_index(&[])?;
-        Ok(series)
+        Ok(Self { folder, name: name.to_owned(), times: Vec::new() })
     }
     /// The `.pvd` file.
     pub fn path(&self) -> PathBuf {
