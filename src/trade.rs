@@ -279,6 +279,7 @@ pub struct Study {
     /// Indices of the values of every knob, without repetition; the base comes first.
     points: Vec<Vec<usize>>,
     clock: Box<dyn Fn() -> f64>,
+    resolution: f64,
 }
 
 impl Study {
@@ -291,6 +292,7 @@ impl Study {
             figures: Vec::new(),
             points: Vec::new(),
             clock: Box::new(move || start.elapsed().as_secs_f64()),
+            resolution: 0.0,
         }
     }
     /// Adds a knob with its values, the base first. All knobs come before the sweeps.
@@ -302,6 +304,12 @@ impl Study {
     /// Announces a figure that the scene records beside the error.
     pub fn figure(mut self, name: &str) -> Self {
         self.figures.push(name.to_owned());
+        self
+    }
+    /// How well the reference itself is known: smaller errors are chance, such as two faults that
+    /// cancel, and count as this large on fronts and in turns.
+    pub fn resolution(mut self, error: f64) -> Self {
+        self.resolution = error;
         self
     }
     /// Measures time by another clock, in seconds: a thread's own processor time where a machine
@@ -417,7 +425,8 @@ impl Study {
             let turned: Vec<usize> = (0..indices.len()).filter(|&k| indices[k] != 0).collect();
             rows.push(Row { point, outcome, turned });
         }
-        let trade = Trade { scene: self.scene.clone(), figures: self.figures.clone(), rows };
+        let (scene, figures) = (self.scene.clone(), self.figures.clone());
+        let trade = Trade { scene, figures, rows, resolution: self.resolution };
         if trade.measured().next().is_none() {
             let first = trade.rows.first().map_or("it has no point", |row| match &row.outcome {
                 Ok(_) => "",
@@ -512,6 +521,7 @@ pub struct Trade {
     scene: String,
     figures: Vec<String>,
     rows: Vec<Row>,
+    resolution: f64,
 }
 
 /// What turning one knob from its base does: ratios to the base.
@@ -607,18 +617,23 @@ impl Trade {
         self.rows.iter().filter_map(|row| row.outcome.as_ref().ok().map(|m| (row, m)))
     }
 
+    /// The error, not below what the reference can tell.
+    fn error(&self, measured: &Measured) -> f64 {
+        measured.error.max(self.resolution)
+    }
+
     /// The Pareto front, cheapest first: points that no other beats in cost or error without being
     /// worse in the other.
     pub fn front(&self, cost: Cost) -> Vec<(&Row, &Measured)> {
         let mut all: Vec<_> = self.measured().collect();
         all.sort_by(|a, b| {
             let by_cost = cost.of(a.1).total_cmp(&cost.of(b.1));
-            by_cost.then(a.1.error.total_cmp(&b.1.error))
+            by_cost.then(self.error(a.1).total_cmp(&self.error(b.1)))
         });
         let mut best = f64::INFINITY;
         all.retain(|(_, m)| {
-            let better = m.error < best;
-            best = best.min(m.error);
+            let better = self.error(m) < best;
+            best = best.min(self.error(m));
             better
         });
         all
@@ -636,7 +651,7 @@ impl Trade {
                 let knob = row.turned[0];
                 let (name, to) = row.point.values[knob].clone();
                 let from = base.point.values[knob].1.clone();
-                let (error, cost) = (m.error / b.error, cost.of(m) / cost.of(b));
+                let (error, cost) = (self.error(m) / self.error(b), cost.of(m) / cost.of(b));
                 (knob, Turn { knob: name, from, to, error, cost })
             })
             .collect();
@@ -689,7 +704,9 @@ impl Trade {
                 && row.turned.len() == 1
             {
                 let (knob, value) = &row.point.values[knob];
-                let _ = writeln!(text, "- Refused: {knob} = {value}: {refusal}.");
+                // The file holds what to do about it too.
+                let why = refusal.split(": ").next().unwrap_or_default();
+                let _ = writeln!(text, "- Refused: {knob} = {value}: {why}.");
             }
         }
         text

@@ -101,7 +101,24 @@ fn words_follow_from_the_figures() {
     assert!(place("costs nothing: rule, of thumb from good to lazy") < place("n from 10 to 20"));
     assert!(place("n from 10 to 20") < place("good to odd"), "better buys first");
     place("half the error costs 1.41 times the time");
-    place("Refused: rule, of thumb = broken: two lines: it is \"broken\", sorry");
+    place("Refused: rule, of thumb = broken: two lines.");
+    let refused = trade.rows().iter().find_map(|row| row.outcome.as_ref().err());
+    assert_eq!(refused.expect("a refusal"), "two lines: it is \"broken\", sorry");
+    std::fs::remove_file(path).expect("file");
+}
+
+/// A finer error than the reference can tell is no better.
+#[test]
+fn errors_below_the_resolution_are_alike() {
+    let (scene, path) = (Scene::new(), file("resolution"));
+    let study = scene.study("scene").resolution(0.02);
+    let trade = study.run(&path, |point| scene.at(point)).expect("trade");
+    let front = trade.front(Cost::Time);
+    // n = 5 errs by 0.04, "lazy" by 0.0101: what costs more than that buys nothing.
+    let errors: Vec<f64> = front.iter().map(|(_, m)| m.error).collect();
+    assert_eq!(errors, [0.0101]);
+    let turns = trade.turns(Cost::Time);
+    assert!(turns.iter().all(|turn| turn.worth() != Worth::Buys), "{turns:?}");
     std::fs::remove_file(path).expect("file");
 }
 

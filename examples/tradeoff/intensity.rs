@@ -12,7 +12,7 @@ use peridynamics::trade::{Point, Record};
 pub fn scene(effort: Effort) -> Outcome<Scene> {
     let cells = effort.choose(
         vec![40.0, 60.0],
-        vec![100.0, 60.0, 140.0, 200.0],
+        vec![140.0, 60.0, 100.0, 200.0],
         vec![200.0, 60.0, 100.0, 140.0, 300.0, 400.0],
     );
     let study = Study::new(&format!("stress intensity, {effort:?}"))
@@ -27,6 +27,7 @@ pub fn scene(effort: Effort) -> Outcome<Scene> {
         .knob("safety", [0.9, 0.5, 0.2])
         .knob("integrator", ["Verlet", "symplectic Euler"])
         .figure("error of K_II")
+        .resolution(0.01)
         .clock(seconds)
         .one_at_a_time()?
         .grid(&["particles along the edge", "m"])?

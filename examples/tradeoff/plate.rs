@@ -24,11 +24,13 @@ pub fn scene(effort: Effort) -> Outcome<Scene> {
         .knob("calibration", ["split", "polynomial", "polynomial, surface corrected"])
         .knob("load", ["last row", "layer of the horizon"])
         .knob("precision", ["f64", "f32"])
-        .knob("tolerance", [1e-5, 1e-2, 1e-3, 1e-4, 1e-7])
+        .knob("tolerance", [1e-3, 1e-2, 1e-4, 1e-6])
         .figure("mean difference")
+        .resolution(0.002)
         .clock(seconds)
         .one_at_a_time()?
-        .grid(&["Δx", "m"])?;
+        .grid(&["Δx", "m"])?
+        .grid(&["calibration", "m"])?;
     let about = "Statics: glass–epoxy at 40°, 0.3 × 0.2 m, clamped on the left, pulled on half its \
                  right edge. The error is the largest difference to finite elements (Scabbia Eq. 51). \
                  Steps are iterations of the solver.";

@@ -55,8 +55,14 @@ pub struct Look {
 impl Look {
     /// Work of both arms less what unloading gives back, over the grown area, in J/m².
     pub fn energy_release_rate(&self, width: f64) -> f64 {
-        let e = self.energies;
-        (e.external - e.strain - e.kinetic) / (width * self.growth)
+        self.given() / (width * self.growth)
+    }
+    /// The same from an earlier look on, which leaves out how a crack starts.
+    pub fn energy_release_rate_since(&self, first: &Self, width: f64) -> f64 {
+        (self.given() - first.given()) / (width * (self.growth - first.growth))
+    }
+    fn given(&self) -> f64 {
+        self.energies.external - self.energies.strain - self.energies.kinetic
     }
 }
 
