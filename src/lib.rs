@@ -87,6 +87,7 @@ pub use pd_damage as damage;
 pub use pd_io as io;
 pub use pd_models as models;
 
+pub mod advise;
 #[cfg(feature = "io")]
 pub mod checkpoint;
 #[cfg(feature = "io")]
@@ -98,6 +99,7 @@ pub mod trade;
 
 /// Everything a simulation needs.
 pub mod prelude {
+    pub use crate::advise::{Advice, Advisor};
     #[cfg(feature = "io")]
     pub use crate::trade::{Cost, Study};
     pub use nalgebra::{SMatrix, SVector};

@@ -14,9 +14,9 @@ const LENGTH: f64 = 16e-3;
 
 pub fn scene(effort: Effort) -> Outcome<Scene> {
     let cells = effort.choose(
-        vec![8.0, 12.0],
-        vec![16.0, 8.0, 12.0, 24.0, 32.0],
-        vec![24.0, 8.0, 12.0, 16.0, 32.0, 48.0],
+        vec![16.0, 24.0],
+        vec![32.0, 16.0, 24.0, 48.0, 64.0],
+        vec![32.0, 16.0, 24.0, 48.0, 64.0, 96.0],
     );
     let study = Study::new(&format!("plane wave, {effort:?}"))
         .knob("λ/Δx", cells)
@@ -36,7 +36,7 @@ pub fn scene(effort: Effort) -> Outcome<Scene> {
     let (sine, cosine) = 30_f64.to_radians().sin_cos();
     let direction = SVector::from([cosine, sine]);
     let wave =
-        PlaneWave::fastest((&ply, DENSITY), direction, LENGTH, effort.choose(1.0, 2.0, 2.0))?;
+        PlaneWave::new((&ply, DENSITY), (direction, 0), LENGTH, effort.choose(1.0, 2.0, 2.0))?;
     let about = "The faster plane wave at 30° from the fibres of graphite–epoxy after two periods, \
                  in the middle of a plate so large that nothing from its edges arrives. The error is \
                  that of its speed; that of u is the root of the mean square over the wave's.";

@@ -57,6 +57,16 @@ pub struct Lattice<T, const D: usize> {
     bonds: usize,
 }
 
+/// Where the nodes of a box of cells lie in the arrays.
+struct Layout<const D: usize> {
+    /// Cells that bonds span along each axis.
+    reaches: [usize; D],
+    strides: [usize; D],
+    /// Sites before the first and after the last node.
+    margin: usize,
+    sites: usize,
+}
+
 /// One bit per undirected bond, those of eight consecutive nodes and one offset in a byte.
 #[derive(Debug)]
 pub struct LatticeBits {
@@ -80,21 +90,9 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         let delta = horizon.in_units(unit)?;
         let cell = grid.spacing() / unit;
         let cell_volume: f64 = cell.iter().product();
-        let reach = quadrature.reach(&cell, delta);
-        let reaches: [usize; D] =
-            std::array::from_fn(|d| (reach / cell[d] * (1.0 + 1e-9)).floor() as usize);
         let cells = grid.cells();
-
-        let mut strides = [1; D];
-        for d in 1..D {
-            let row = strides[d - 1] * (cells[d - 1] + reaches[d - 1]);
-            strides[d] = if d == 1 { row.next_multiple_of(T::WIDTH) } else { row };
-        }
-        let margin: usize =
-            (0..D).map(|d| strides[d] * reaches[d]).sum::<usize>().next_multiple_of(T::WIDTH)
-                + T::WIDTH;
-        let inner: usize = (0..D).map(|d| strides[d] * (cells[d] - 1)).sum::<usize>() + 1;
-        let sites = inner.next_multiple_of(T::WIDTH) + 2 * margin;
+        let Layout { reaches, strides, margin, sites } =
+            Self::layout(cells, &cell, delta, quadrature);
         Error::check(
             sites < u32::MAX as usize,
             "number of lattice sites",
@@ -170,6 +168,32 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         lattice.bonds = counts.iter().map(|c| c.1).sum();
         lattice.interior = counts.into_iter().map(|c| c.0).collect();
         Ok(lattice)
+    }
+
+    fn layout(
+        cells: [usize; D],
+        cell: &SVector<f64, D>,
+        delta: f64,
+        quadrature: Quadrature,
+    ) -> Layout<D> {
+        let reach = quadrature.reach(cell, delta);
+        let reaches: [usize; D] =
+            std::array::from_fn(|d| (reach / cell[d] * (1.0 + 1e-9)).floor() as usize);
+        let mut strides = [1; D];
+        for d in 1..D {
+            let row = strides[d - 1] * (cells[d - 1] + reaches[d - 1]);
+            strides[d] = if d == 1 { row.next_multiple_of(T::WIDTH) } else { row };
+        }
+        let margin: usize =
+            (0..D).map(|d| strides[d] * reaches[d]).sum::<usize>().next_multiple_of(T::WIDTH)
+                + T::WIDTH;
+        let inner: usize = (0..D).map(|d| strides[d] * (cells[d] - 1)).sum::<usize>() + 1;
+        Layout { reaches, strides, margin, sites: inner.next_multiple_of(T::WIDTH) + 2 * margin }
+    }
+    /// Number of sites of a lattice over a box of so many cells with equal edges, for δ = `m` Δx:
+    /// what its node arrays will hold, before there is one.
+    pub fn sites_of(cells: [usize; D], m: f64, quadrature: Quadrature) -> usize {
+        Self::layout(cells, &SVector::repeat(1.0), m, quadrature).sites
     }
 
     /// The grid this lattice was made from.

@@ -57,10 +57,6 @@ impl Look {
     pub fn energy_release_rate(&self, width: f64) -> f64 {
         self.given() / (width * self.growth)
     }
-    /// The same from an earlier look on, which leaves out how a crack starts.
-    pub fn energy_release_rate_since(&self, first: &Self, width: f64) -> f64 {
-        (self.given() - first.given()) / (width * (self.growth - first.growth))
-    }
     fn given(&self) -> f64 {
         self.energies.external - self.energies.strain - self.energies.kinetic
     }
@@ -143,6 +139,16 @@ impl Beam {
             });
         }
         Ok(looks)
+    }
+    /// The same as a slope by least squares over the looks within a range of growth, which leaves out
+    /// how a crack starts and averages over its jumps from node to node.
+    pub fn energy_release_rate(looks: &[Look], growth: [f64; 2], width: f64) -> f64 {
+        let inside = |look: &&Look| growth[0] <= look.growth && look.growth <= growth[1];
+        let points = || looks.iter().filter(inside).map(|look| (look.growth, look.given()));
+        let n = points().count() as f64;
+        let (x, y) = points().fold((0.0, 0.0), |s, p| (s.0 + p.0 / n, s.1 + p.1 / n));
+        let along: f64 = points().map(|p| (p.0 - x) * (p.1 - y)).sum();
+        along / points().map(|p| (p.0 - x).powi(2)).sum::<f64>() / width
     }
     /// The damage of an open face that counts as separated.
     pub fn separated(plane: &CrackPlane<3>) -> f64 {

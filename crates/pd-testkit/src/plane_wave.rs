@@ -29,17 +29,18 @@ pub struct Misfit {
 }
 
 impl<const D: usize> PlaneWave<D> {
-    /// The fastest wave of this length along a direction, looked at after so many periods.
+    /// A wave of this length along a direction, the fastest for `branch` 0, looked at after so many
+    /// periods.
     ///
     /// # Errors
     /// What [`Stiffness::waves`] refuses.
-    pub fn fastest(
+    pub fn new(
         (stiffness, density): (&Stiffness<D>, f64),
-        direction: SVector<f64, D>,
+        (direction, branch): (SVector<f64, D>, usize),
         wavelength: f64,
         periods: f64,
     ) -> Result<Self, pd_models::Error> {
-        let classical = stiffness.waves(&direction, density)?[0];
+        let classical = stiffness.waves(&direction, density)?[branch];
         let wave = direction.normalize() * (TAU / wavelength);
         let time = periods * wavelength / classical.speed;
         Ok(Self { wave, classical, time, fastest: stiffness.max_wave_speed(density)? })
