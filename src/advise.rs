@@ -56,10 +56,16 @@ const HORIZONS: [f64; 4] = [2.0, 3.0, 4.0, 5.0];
 const CELLS: (f64, f64, f64) = (4.0, 1.03, 400.0);
 /// Rounding may grow with the steps to this share of the target error.
 const ROUNDING: f64 = 0.1;
-/// Steps timed at once, between two guards of a run.
-const STEPS: usize = 20;
-/// Nodes of the body that ranks candidates, and of the one that times the best.
-const SAMPLES: [f64; 2] = [2e4, 1.5e5];
+/// How a body is timed: its nodes at most, steps at once, and how often.
+#[derive(Clone, Copy)]
+struct Timing {
+    nodes: f64,
+    steps: usize,
+    times: usize,
+}
+/// To rank candidates, and to time the best one: with the guard that a run has every 20 steps.
+const RANKED: Timing = Timing { nodes: 1e4, steps: 5, times: 2 };
+const BEST: Timing = Timing { nodes: 1.5e5, steps: 20, times: 4 };
 
 /// Result of this module.
 pub type Result<X, E = Error> = std::result::Result<X, E>;
@@ -184,7 +190,7 @@ struct Sample {
 }
 
 type Timer<'a, const D: usize> =
-    Box<dyn Fn(&Grid<D>, f64, Quadrature, Precision) -> Result<Sample> + 'a>;
+    Box<dyn Fn(&Grid<D>, f64, Precision, Timing) -> Result<Sample> + 'a>;
 
 /// A material at a horizon, as fine as the target asks for.
 #[derive(Clone)]
@@ -257,9 +263,10 @@ impl<'a, const D: usize> Advisor<'a, D> {
         M: Material<f64, D> + Material<f32, D>,
     {
         let index = self.materials.len();
-        let timer = move |grid: &Grid<D>, m, quadrature, precision| match precision {
-            Precision::Single => sample::<f32, D, M>(material, grid, m, quadrature),
-            Precision::Double => sample::<f64, D, M>(material, grid, m, quadrature),
+        let quadrature = self.quadrature;
+        let timer = move |grid: &Grid<D>, m, precision, timing| match precision {
+            Precision::Single => sample::<f32, D, M>(material, grid, (m, quadrature), timing),
+            Precision::Double => sample::<f64, D, M>(material, grid, (m, quadrature), timing),
         };
         self.materials.push((name.to_owned(), Box::new(timer)));
         for m in HORIZONS {
@@ -360,7 +367,7 @@ impl<'a, const D: usize> Advisor<'a, D> {
         let mut ranked = Vec::new();
         let mut reasons = self.refused.clone();
         for candidate in &self.candidates {
-            match self.predict(candidate, SAMPLES[0]) {
+            match self.predict(candidate, RANKED) {
                 Ok(advice) => ranked.push((candidate, advice)),
                 Err(Error::Core(error)) => {
                     let (name, why) = (&self.materials[candidate.material].0, error.to_string());
@@ -375,7 +382,7 @@ impl<'a, const D: usize> Advisor<'a, D> {
             let (target, wavelength) = (self.error, self.wavelength);
             return Err(Error::NoChoice { target, wavelength, reasons });
         };
-        let mut advice = self.predict(best, SAMPLES[1])?;
+        let mut advice = self.predict(best, BEST)?;
         let line = |a: &Advice<D>| {
             format!(
                 "{}, Δx = {:.3} mm, m = {}, {}: {:.1} MB, {}",
@@ -391,18 +398,18 @@ impl<'a, const D: usize> Advisor<'a, D> {
         Ok(advice)
     }
 
-    fn predict(&self, candidate: &Candidate<D>, sample_nodes: f64) -> Result<Advice<D>> {
+    fn predict(&self, candidate: &Candidate<D>, timing: Timing) -> Result<Advice<D>> {
         let Candidate { material, m, spacing, precision, error, direction, branch } = *candidate;
         let grid = Grid::new(self.shape, spacing)?;
         let (name, timer) = &self.materials[material];
         // A box with the edges of the body, the longest cut down to as many nodes as are timed.
         let mut cells = grid.cells();
-        while cells.iter().product::<usize>() as f64 > sample_nodes {
+        while cells.iter().product::<usize>() as f64 > timing.nodes {
             let longest = (0..D).max_by_key(|&d| cells[d]).unwrap_or(0);
             cells[longest] = cells[longest] * 9 / 10;
         }
         let small = Grid::lattice(SVector::zeros(), SVector::repeat(spacing), cells)?;
-        let sample = timer(&small, m, self.quadrature, precision)?;
+        let sample = timer(&small, m, precision, timing)?;
         let time_step = sample.step_per_spacing * spacing;
         let steps = (self.duration / time_step * (1.0 - 1e-12)).ceil();
         let nodes = grid.len();
@@ -446,8 +453,8 @@ impl Sample {
 fn sample<T: Real, const D: usize, M: Material<T, D>>(
     material: &M,
     grid: &Grid<D>,
-    m: f64,
-    quadrature: Quadrature,
+    (m, quadrature): (f64, Quadrature),
+    timing: Timing,
 ) -> Result<Sample> {
     let start = Instant::now();
     let family = Lattice::<T, D>::new(grid, Horizon::Cells(m), quadrature)?;
@@ -458,15 +465,15 @@ fn sample<T: Real, const D: usize, M: Material<T, D>>(
     let mut run = Run::new(&mut body, Loads::new(), TimeStep::Safety(SAFETY))?;
     let set_up = start.elapsed().as_secs_f64() / nodes as f64;
     let step_per_spacing = run.dt() / spacing;
-    let mut times = [0.0; 4];
-    for time in &mut times {
+    // The first time warms up; others are disturbed by what else the machine does.
+    let mut step = f64::INFINITY;
+    for time in 0..timing.times {
         let start = Instant::now();
-        run.steps_more(STEPS)?;
-        *time = start.elapsed().as_secs_f64();
+        run.steps_more(timing.steps)?;
+        let seconds = start.elapsed().as_secs_f64();
+        step = if time == 0 { step } else { step.min(seconds) };
     }
-    // The first one warms up; others are disturbed by what else the machine does.
-    let step = times[1..].iter().copied().fold(f64::INFINITY, f64::min);
-    let step = step / (STEPS * nodes) as f64;
+    let step = step / (timing.steps * nodes) as f64;
     Ok(Sample { nodes, sites, memory, step_per_spacing, set_up, step })
 }
 
