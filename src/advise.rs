@@ -63,9 +63,12 @@ struct Timing {
     steps: usize,
     times: usize,
 }
-/// To rank candidates, and to time the best one: with the guard that a run has every 20 steps.
+/// To rank candidates.
 const RANKED: Timing = Timing { nodes: 1e4, steps: 5, times: 2 };
-const BEST: Timing = Timing { nodes: 1.5e5, steps: 20, times: 4 };
+/// The best one is timed in bodies of this many bytes, which caches do not hold, but for no more than
+/// so many seconds (choosing the time step takes up to 160 evaluations), with the guard that a run
+/// has every 20 steps.
+const BEST: (f64, f64, Timing) = (5e7, 4.0, Timing { nodes: 1e4, steps: 20, times: 5 });
 
 /// Result of this module.
 pub type Result<X, E = Error> = std::result::Result<X, E>;
@@ -378,11 +381,16 @@ impl<'a, const D: usize> Advisor<'a, D> {
             }
         }
         ranked.sort_by(|a, b| a.1.seconds.total_cmp(&b.1.seconds));
-        let Some((best, _)) = ranked.first() else {
+        let Some((best, first)) = ranked.first() else {
             let (target, wavelength) = (self.error, self.wavelength);
             return Err(Error::NoChoice { target, wavelength, reasons });
         };
-        let mut advice = self.predict(best, BEST)?;
+        let (bytes, seconds, timing) = BEST;
+        let per_node = first.bytes as f64 / first.nodes as f64;
+        let per_step = first.seconds / (first.nodes * (160 + first.steps)) as f64;
+        let evaluations = (160 + timing.steps * timing.times) as f64;
+        let nodes = (bytes / per_node).min(seconds / (evaluations * per_step)).max(timing.nodes);
+        let mut advice = self.predict(best, Timing { nodes, ..timing })?;
         let line = |a: &Advice<D>| {
             format!(
                 "{}, Δx = {:.3} mm, m = {}, {}: {:.1} MB, {}",
@@ -465,15 +473,16 @@ fn sample<T: Real, const D: usize, M: Material<T, D>>(
     let mut run = Run::new(&mut body, Loads::new(), TimeStep::Safety(SAFETY))?;
     let set_up = start.elapsed().as_secs_f64() / nodes as f64;
     let step_per_spacing = run.dt() / spacing;
-    // The first time warms up; others are disturbed by what else the machine does.
-    let mut step = f64::INFINITY;
-    for time in 0..timing.times {
+    // The first time warms up. Of the others the median: what else the machine does now, it will
+    // do during the run too.
+    let mut times = Vec::new();
+    for _ in 0..timing.times {
         let start = Instant::now();
         run.steps_more(timing.steps)?;
-        let seconds = start.elapsed().as_secs_f64();
-        step = if time == 0 { step } else { step.min(seconds) };
+        times.push(start.elapsed().as_secs_f64());
     }
-    let step = step / (timing.steps * nodes) as f64;
+    times[1..].sort_by(f64::total_cmp);
+    let step = times[1 + (timing.times - 1) / 2] / (timing.steps * nodes) as f64;
     Ok(Sample { nodes, sites, memory, step_per_spacing, set_up, step })
 }
 
