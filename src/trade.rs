@@ -35,8 +35,10 @@ use std::fmt::{self, Write as _};
 use std::path::Path;
 use std::time::Instant;
 
-/// Ratios within this of one are no change: clocks of shared machines differ by as much.
-const SAME: f64 = 0.05;
+/// Ratios of errors within this of one are no change.
+const SAME_ERROR: f64 = 0.05;
+/// As much for costs: times of one run differ by 10 % on a shared machine.
+const SAME_COST: f64 = 0.15;
 
 /// Result of this module.
 pub type Result<X, E = Error> = std::result::Result<X, E>;
@@ -539,7 +541,7 @@ pub struct Turn {
     pub cost: f64,
 }
 
-/// What a turn is good for. Changes within 5 % are none.
+/// What a turn is good for. Changes of the error within 5 % and of the cost within 15 % are none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Worth {
     /// Better in one, in the other no worse.
@@ -557,12 +559,12 @@ pub enum Worth {
 impl Turn {
     /// What it is good for.
     pub fn worth(&self) -> Worth {
-        let sign = |ratio: f64| match ratio {
-            r if r < 1.0 - SAME => -1,
-            r if r > 1.0 + SAME => 1,
+        let sign = |ratio: f64, same: f64| match ratio {
+            r if r < 1.0 - same => -1,
+            r if r > 1.0 + same => 1,
             _ => 0,
         };
-        match (sign(self.error), sign(self.cost)) {
+        match (sign(self.error, SAME_ERROR), sign(self.cost, SAME_COST)) {
             (0, 0) => Worth::Idle,
             (-1 | 0, -1 | 0) => Worth::Free,
             (-1, 1) => Worth::Buys,
@@ -694,7 +696,7 @@ impl Trade {
         }
         let saves = list(Worth::Saves, Turn::sensitivity);
         line(format!("For less {word}, best saving first:"), &saves);
-        line(format!("Neither error nor {word} changes by 5 %:"), &list(Worth::Idle, |_| 0.0));
+        line(format!("Neither error nor {word} changes:"), &list(Worth::Idle, |_| 0.0));
         line(
             "Not worth it, more of one and no less of the other:".into(),
             &list(Worth::Loses, |t| t.error * t.cost),

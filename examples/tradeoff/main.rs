@@ -92,8 +92,9 @@ fn title(name: &str) -> String {
 }
 
 const HOW_TO_READ: &str = "\
-Errors are relative. Time is processor time of one thread, set-up included; ratios within 5 % count as \
-no change. A turn changes one knob of the base and nothing else. \"Costs nothing\" is better in one \
+Errors are relative. Time is processor time of one thread, set-up included; changes of the error within \
+5 % and of the time within 15 % count as none (one run twice differs by up to 10 % on a shared \
+machine). A turn changes one knob of the base and nothing else. \"Costs nothing\" is better in one \
 of error and time and no worse in the other. A buy takes error for time: with error ∝ time^−p, half the \
 error costs 2^(1/p) times the time. A saving gives error for time. What holds at one base need not \
 hold at another: the tables of the fronts come from all points, the full grid of spacing and horizon \
