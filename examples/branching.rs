@@ -11,7 +11,7 @@
 use peridynamics::damage::crack_path::{branches, symmetry_error};
 use peridynamics::io::History;
 use peridynamics::prelude::*;
-use peridynamics::study::{Effort, damage, draw_damage};
+use peridynamics::study::{Effort, conclude, damage, draw_damage};
 
 type Place = SVector<f64, 2>;
 
@@ -85,8 +85,8 @@ fn main() -> Result<()> {
     drop(run);
     draw_damage(&body, (20.0, [0, 1]), |_| true, "branching, end", format!("{FOLDER}/end.png"))?;
 
-    let command = "cargo run --release --example branching";
-    let mut table = Measures::new("Crack branching in soda-lime glass under 12 MPa", command);
+    let command = effort.command("branching");
+    let mut table = Measures::new("Crack branching in soda-lime glass under 12 MPa", &command);
     let cracks = CrackPath::of(&body, &start);
     let own = cracks.at_tip(&origin);
     table.hard("the crack crosses the plate", arrived);
@@ -120,8 +120,5 @@ fn main() -> Result<()> {
     let Energies { kinetic, strain, external, dissipated } = energies;
     let off = (external - kinetic - strain - dissipated).abs() / external;
     table.hard_most("energy out of balance", off, 0.01);
-    print!("{table}");
-    table.write(format!("{FOLDER}/measures.md"))?;
-    println!("pictures, tip.csv and measures.md are in {FOLDER}");
-    Ok(())
+    conclude(&table, effort, FOLDER, &["crosses the plate", "branches"])
 }

@@ -16,7 +16,7 @@ use pd_testkit::graded_wave::{Crossing, FINE, OneSided, Plate, ghost_force, unba
 use peridynamics::damage::crack_path::{path, path_at};
 use peridynamics::io::LinePlot;
 use peridynamics::prelude::*;
-use peridynamics::study::{Effort, damage, draw_damage};
+use peridynamics::study::{Effort, conclude, damage, draw_damage};
 use std::time::Instant;
 
 type Place = SVector<f64, 2>;
@@ -271,12 +271,9 @@ fn waves(effort: Effort, table: &mut Measures) -> Result<()> {
 fn main() -> Result<()> {
     let effort = Effort::from_arguments();
     std::fs::create_dir_all(FOLDER).map_err(other)?;
-    let command = "cargo run --release --example graded_plate";
-    let mut table = Measures::new("Graded clouds: a plate refined 4:1 around its crack", command);
+    let command = effort.command("graded_plate");
+    let mut table = Measures::new("Graded clouds: a plate refined 4:1 around its crack", &command);
     cracks(effort, &mut table)?;
     waves(effort, &mut table)?;
-    print!("{table}");
-    table.write(format!("{FOLDER}/measures.md"))?;
-    println!("pictures and measures.md are in {FOLDER}");
-    Ok(())
+    conclude(&table, effort, FOLDER, &[])
 }

@@ -12,7 +12,7 @@
 
 use peridynamics::models::elasticity::catalogue;
 use peridynamics::prelude::*;
-use peridynamics::study::{Effort, cracking_ply, damage, draw_damage};
+use peridynamics::study::{Effort, conclude, damage, draw_damage};
 
 type Place = SVector<f64, 2>;
 
@@ -41,15 +41,22 @@ fn pull(depth: f64, dx: f64, table: &mut Measures) -> Result<()> {
     let region: Vec<u8> = (0..grid.len()).map(|i| u8::from(grid.position(i)[1] > 0.0)).collect();
     let below = catalogue::hattori_plate().map_err(other)?;
     let above = catalogue::hattori_inclusion().map_err(other)?.rotated(45_f64.to_radians());
+    let bonds = |stiffness: &Stiffness<2>, density| {
+        let policy = ShapePolicy { rule: IllConditioned::Detach, limit: 5.0 };
+        let ply = BondAssociated::<2, 3>::new(stiffness, density, InfluenceFunction::Linear);
+        Ok::<_, Error>(ply.map_err(other)?.with_shape_policy(policy))
+    };
     let materials = [
-        cracking_ply(below, catalogue::HATTORI_PLATE_DENSITY, 16e9).map_err(other)?,
-        cracking_ply(above, catalogue::HATTORI_INCLUSION_DENSITY, 16e9).map_err(other)?,
+        bonds(&below, catalogue::HATTORI_PLATE_DENSITY)?,
+        bonds(&above, catalogue::HATTORI_INCLUSION_DENSITY)?,
     ];
     let material = Regions::new(materials, region.clone()).map_err(other)?;
     let strengths = |[along, across, shear]: [f64; 3]| Strengths { along, across, shear };
-    let of_i = TsaiHill::new(&strengths(catalogue::HTA_6376_STRENGTHS), 0.0)?;
+    let of_i =
+        TsaiHill::new(&strengths(catalogue::HTA_6376_STRENGTHS), 0.0)?.with_bridging_fibres();
     let turned = 45_f64.to_radians();
-    let of_ii = TsaiHill::new(&strengths(catalogue::HATTORI_INCLUSION_STRENGTHS), turned)?;
+    let of_ii = TsaiHill::new(&strengths(catalogue::HATTORI_INCLUSION_STRENGTHS), turned)?
+        .with_bridging_fibres();
     let joint = TsaiHill::new(&strengths([1670e6, 48e6, 56e6]), 0.0)?;
     let criterion = Interfaces::new([[of_i, joint], [joint, of_ii]], region.clone())?;
     // Between two rows of nodes.
@@ -149,12 +156,9 @@ fn pull(depth: f64, dx: f64, table: &mut Measures) -> Result<()> {
 fn main() -> Result<()> {
     let effort = Effort::from_arguments();
     let dx = LENGTH / effort.choose(200.0, 400.0, 400.0);
-    let command = "cargo run --release --example hattori_delamination";
-    let mut table = Measures::new("Delamination (Hattori §6.4)", command);
+    let command = effort.command("hattori_delamination");
+    let mut table = Measures::new("Delamination (Hattori §6.4)", &command);
     pull(0.0, dx, &mut table)?;
     pull(5.0 * MM, dx, &mut table)?;
-    print!("{table}");
-    table.write(format!("{FOLDER}/measures.md"))?;
-    println!("pictures and measures.md are in {FOLDER}");
-    Ok(())
+    conclude(&table, effort, FOLDER, &[])
 }

@@ -11,7 +11,7 @@
 
 use peridynamics::damage::crack_path::{fit_line, symmetry_error, without_ends};
 use peridynamics::prelude::*;
-use peridynamics::study::{Effort, damage, draw_damage};
+use peridynamics::study::{Effort, conclude, damage, draw_damage};
 
 type Place = SVector<f64, 3>;
 
@@ -88,8 +88,8 @@ fn main() -> Result<()> {
         format!("{FOLDER}/face.png"),
     )?;
 
-    let command = "cargo run --release --example kalthoff_winkler";
-    let mut table = Measures::new("Kalthoff–Winkler in 3D", command);
+    let command = effort.command("kalthoff_winkler");
+    let mut table = Measures::new("Kalthoff–Winkler in 3D", &command);
     let cracks = CrackPath::of(&body, &start);
     // The thickness is no rim.
     let wide = 10.0 * THICKNESS;
@@ -113,8 +113,5 @@ fn main() -> Result<()> {
     let speed = started.and_then(|t| track.speed(t + 5e-6, end)).unwrap_or(f64::NAN);
     table.hard_most("crack speed against the Rayleigh speed", speed / (0.92 * shear), 1.0);
     println!("starts at {started:?} s, {speed:.0} m/s on the mean");
-    print!("{table}");
-    table.write(format!("{FOLDER}/measures.md"))?;
-    println!("pictures and measures.md are in {FOLDER}");
-    Ok(())
+    conclude(&table, effort, FOLDER, &["crack speed"])
 }

@@ -12,7 +12,7 @@
 use peridynamics::damage::bond_energy::Uniform;
 use peridynamics::damage::crack_path::{fit_line, path, symmetry_error};
 use peridynamics::prelude::*;
-use peridynamics::study::{Effort, damage, draw_damage};
+use peridynamics::study::{Effort, conclude, damage, draw_damage};
 
 type Place = SVector<f64, 2>;
 
@@ -135,15 +135,12 @@ where
 fn main() -> Result<()> {
     let effort = Effort::from_arguments();
     let dx = effort.choose(1.0, 0.5, 0.25) * MM;
-    let command = "cargo run --release --example willberg_hole";
-    let mut table = Measures::new("Plate with a hole (Willberg §5C)", command);
+    let command = effort.command("willberg_hole");
+    let mut table = Measures::new("Plate with a hole (Willberg §5C)", &command);
     pull(dx, "stretch", |_, _| CriticalStretch::new(STRETCH), &mut table)?;
     let energy = |plane: &CrackPlane<2>, _: &Isotropic| {
         BondEnergy::<Uniform>::from_energy(FractureEnergy::new(ENERGY)?, plane)
     };
     pull(dx, "energy", energy, &mut table)?;
-    print!("{table}");
-    table.write(format!("{FOLDER}/measures.md"))?;
-    println!("pictures and measures.md are in {FOLDER}");
-    Ok(())
+    conclude(&table, effort, FOLDER, &[])
 }

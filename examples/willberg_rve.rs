@@ -16,7 +16,7 @@ use peridynamics::damage::bond_energy::Uniform;
 use peridynamics::damage::crack_path::fit_line;
 use peridynamics::models::elasticity::catalogue;
 use peridynamics::prelude::*;
-use peridynamics::study::{Effort, damage, draw_damage};
+use peridynamics::study::{Effort, conclude, damage, draw_damage};
 
 type Place = SVector<f64, 2>;
 
@@ -201,8 +201,8 @@ fn main() -> Result<()> {
     let seed = std::env::args().skip(1).find_map(|a| a.parse().ok()).unwrap_or(1);
     let dx = effort.choose(1.0, 0.5, 0.25) * MM;
     let centres = fibres(seed)?;
-    let command = "cargo run --release --example willberg_rve";
-    let mut table = Measures::new("Fibres in resin (Willberg §6)", command);
+    let command = effort.command("willberg_rve");
+    let mut table = Measures::new("Fibres in resin (Willberg §6)", &command);
     let energy = |value: f64| FractureEnergy::new(value);
     let modes = |plane: &CrackPlane<2>| -> Result<[ModeEnergies; 2]> {
         let own = ModeEnergies::from_energies(
@@ -235,8 +235,5 @@ fn main() -> Result<()> {
             println!("{label} and energy at failure: Jaccard index {:.3}", a.jaccard(&b));
         }
     }
-    print!("{table}");
-    table.write(format!("{FOLDER}/measures.md"))?;
-    println!("pictures and measures.md are in {FOLDER}");
-    Ok(())
+    conclude(&table, effort, FOLDER, &["angle from the load", "first damage", "Jaccard index"])
 }

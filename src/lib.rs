@@ -101,6 +101,8 @@ pub mod trade;
 pub mod prelude {
     pub use crate::advise::{Advice, Advisor};
     #[cfg(feature = "io")]
+    pub use crate::checkpoint::Checkpoint;
+    #[cfg(feature = "io")]
     pub use crate::trade::{Cost, Study};
     pub use nalgebra::{SMatrix, SVector};
     pub use pd_core::body::{Body, Dynamics};

@@ -1,10 +1,9 @@
 //! What studies share: how large a run is, and pictures of damage.
 
 use nalgebra::SVector;
-use pd_core::shape::{IllConditioned, ShapePolicy};
 use pd_core::{Body, DamagePolicy, Error, Family, Material, Real, Result};
+use pd_damage::Measures;
 use pd_io::{ColourMap, FieldMap};
-use pd_models::{Correspondence, LinearElastic, SillingControl, Stiffness};
 use std::path::Path;
 
 /// How much work a study takes, from its arguments: `--short` (seconds), nothing (about a minute
@@ -29,6 +28,11 @@ impl Effort {
             _ => Self::Default,
         }
     }
+    /// The command that runs an example with this effort.
+    pub fn command(self, example: &str) -> String {
+        let flag = self.choose(" -- --short", "", " -- --full");
+        format!("cargo run --release --example {example}{flag}")
+    }
     /// One of three values.
     pub fn choose<X>(self, short: X, default: X, full: X) -> X {
         match self {
@@ -39,23 +43,23 @@ impl Effort {
     }
 }
 
-/// A correspondence ply for plates that crack along their fibres: the linear influence function, and
-/// a weak control of zero-energy modes on the scale of `soft`, the modulus across the fibres in Pa
-/// (one with the fibre's stiffness hinders the sliding along the fibres that a split is made of).
-/// Nodes whose shape tensor has a condition number above 5 carry no stress: what is left of their
-/// family says too little about the strain.
+/// Ends a study: prints its table and writes it to `folder`, as `measures.md`, or as
+/// `measures_short.md` and `measures_full.md`. A short run is a test too: every HARD measure must hold
+/// but those that are known to miss on its coarse body, by a part of their names.
 ///
 /// # Errors
-/// A density or modulus that is not positive.
-pub fn cracking_ply(
-    stiffness: Stiffness<2>,
-    density: f64,
-    soft: f64,
-) -> pd_models::Result<Correspondence<LinearElastic<2>, SillingControl>> {
-    let linear = pd_core::InfluenceFunction::Linear;
-    Ok(Correspondence::new(LinearElastic(stiffness), density, linear)?
-        .with_control(SillingControl::new(0.5 * soft, 0.3)?)
-        .with_shape_policy(ShapePolicy { rule: IllConditioned::Detach, limit: 5.0 }))
+/// [`Error::Other`] if the table cannot be written, or with the measures that miss in a short run.
+pub fn conclude(table: &Measures, effort: Effort, folder: &str, known: &[&str]) -> Result<()> {
+    print!("{table}");
+    let file = effort.choose("measures_short.md", "measures.md", "measures_full.md");
+    table.write(format!("{folder}/{file}"))?;
+    println!("pictures and {file} are in {folder}");
+    let expected = |name: &&str| known.iter().any(|part| name.contains(part));
+    let misses: Vec<&str> = table.misses().filter(|name| !expected(name)).collect();
+    if effort == Effort::Short && !misses.is_empty() {
+        return Err(Error::Other(format!("HARD measures miss: {}", misses.join("; "))));
+    }
+    Ok(())
 }
 
 /// Damage index of every node.

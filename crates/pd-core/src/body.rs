@@ -1073,6 +1073,7 @@ where
         crate::diagonal::blocks(&self.family, &self.material, &self.table, bits, constants)
     }
     fn save(&self, state: &mut StateWriter<'_>) -> std::io::Result<()> {
+        state.counts("body", &[self.nodes(), self.family.bonds(), size_of::<T>()])?;
         state.numbers("displacements", self.u.as_slice())?;
         state.numbers("velocities", self.v.as_slice())?;
         state.numbers("forces", self.force.as_slice())?;
@@ -1087,6 +1088,15 @@ where
         state.numbers("worst index", &[self.worst])
     }
     fn restore(&mut self, state: &mut StateReader<'_>) -> Result<()> {
+        let here = [self.nodes(), self.family.bonds(), size_of::<T>()];
+        let there: [usize; 3] = state.counts("body")?;
+        if there != here {
+            let told = |[nodes, bonds, bytes]: [usize; 3]| {
+                format!("{nodes} nodes, {bonds} bonds and numbers of {bytes} bytes")
+            };
+            let reason = format!("has {}, the body here {}", told(there), told(here));
+            return Err(unlike("body", reason));
+        }
         let u = state.field("displacements", &self.u)?;
         let v = state.field("velocities", &self.v)?;
         let force = state.field("forces", &self.force)?;

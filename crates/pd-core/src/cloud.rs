@@ -85,8 +85,15 @@ impl CloudBits {
 }
 
 fn snapped(x: f64, size: f64) -> f64 {
-    let whole = x.round();
+    // Adding 1.5·2⁵² leaves no digit after the point: `f64::round` is a call on plain x86-64.
+    const SHIFT: f64 = 1.5 * (1_u64 << 52) as f64;
+    let whole = if x.abs() < 0.25 * SHIFT { (x + SHIFT) - SHIFT } else { x };
     if (x - whole).abs() <= SNAP * size.max(1.0) { whole } else { x }
+}
+
+/// Edges of the cube that stands for the cell of a node of this volume.
+fn cell<const D: usize>(volume: f64) -> SVector<f64, D> {
+    SVector::repeat(if volume == 1.0 { 1.0 } else { volume.powf(1.0 / D as f64) })
 }
 
 impl<T: Real, const D: usize> Cloud<T, D> {
@@ -131,22 +138,28 @@ impl<T: Real, const D: usize> Cloud<T, D> {
             samples: Vec::new(),
         };
         let scaled: Vec<SVector<f64, D>> = (0..n).map(|i| points.position(i) / unit).collect();
+        // Asked for at every bond, computed once per node.
+        let volumes: Vec<f64> = (0..n).map(|i| cloud.unit_volume(i)).collect();
+        let cells: Vec<SVector<f64, D>> = volumes.iter().map(|&v| cell(v)).collect();
         let rows = neighbours(&scaled, |i| {
-            cloud.quadrature.reach(&cloud.cell(i), cloud.horizon(i)).max(cloud.horizon(i))
+            cloud.quadrature.reach(&cells[i], cloud.horizon(i)).max(cloud.horizon(i))
         });
         // Coordinates carry the rounding of the whole cloud's extent, not of their own size.
         let extent = scaled.iter().map(SVector::amax).fold(0.0, f64::max);
         let xi = |i: usize, j: usize| (scaled[j] - scaled[i]).map(|x| snapped(x, extent));
         let beta = |i: usize, j: usize, xi: &SVector<f64, D>| {
-            cloud.quadrature.weight(xi, &cloud.cell(j), cloud.horizon(i))
+            cloud.quadrature.weight(xi, &cells[j], cloud.horizon(i))
         };
         let shape = |i: usize, j: usize| {
             let xi = xi(i, j);
-            let volume = cloud.unit_volume(j);
+            let own = beta(i, j, &xi);
+            // Both ends see a bond alike if their cells and horizons are the same.
+            let alike = volumes[i] == volumes[j] && cloud.horizon(i) == cloud.horizon(j);
+            let mate = if alike { own } else { beta(j, i, &-xi) };
             BondShape {
                 xi: xi.map(T::of),
                 inverse_square: T::of(1.0 / xi.norm_squared()),
-                volumes: [beta(i, j, &xi) * volume, beta(j, i, &-xi) * volume].map(T::of),
+                volumes: [own * volumes[j], mate * volumes[j]].map(T::of),
                 horizons: [cloud.horizon(i), cloud.horizon(j)].map(T::of),
             }
         };
@@ -189,6 +202,9 @@ impl<T: Real, const D: usize> Cloud<T, D> {
         } else {
             (cloud.shapes, cloud.samples) = (kinds.shapes, kinds.samples);
         }
+        cloud.shapes.shrink_to_fit();
+        cloud.samples.shrink_to_fit();
+        kind.shrink_to_fit();
         (cloud.start, cloud.neighbour, cloud.kind) = (start, neighbour, kind);
         Ok(cloud)
     }
@@ -204,12 +220,6 @@ impl<T: Real, const D: usize> Cloud<T, D> {
     fn unit_volume(&self, node: usize) -> f64 {
         let volume = self.points.volume(node) / self.unit.powi(D as i32);
         snapped(volume, volume)
-    }
-    /// Edges of the cube that stands for a node's cell.
-    fn cell(&self, node: usize) -> SVector<f64, D> {
-        let volume = self.unit_volume(node);
-        let edge = if volume == 1.0 { 1.0 } else { volume.powf(1.0 / D as f64) };
-        SVector::repeat(edge)
     }
     /// Neighbours of a node, ascending.
     fn row(&self, node: usize) -> &[u32] {
@@ -241,6 +251,9 @@ struct Kinds<T, const D: usize> {
     slots: Vec<u16>,
     /// There are more than can be told apart.
     full: bool,
+    /// The number found last, and the one found after each number: rows are much alike.
+    last: u16,
+    after: Vec<u16>,
 }
 
 /// More shapes than this are not shared.
@@ -249,13 +262,27 @@ const MOST_KINDS: usize = 1 << 14;
 impl<T: Real, const D: usize> Default for Kinds<T, D> {
     fn default() -> Self {
         let slots = vec![u16::MAX; 4 * MOST_KINDS];
-        Self { shapes: Vec::new(), samples: Vec::new(), slots, full: false }
+        let (shapes, samples, after) = (Vec::new(), Vec::new(), Vec::new());
+        Self { shapes, samples, slots, full: false, last: 0, after }
     }
 }
 
 impl<T: Real, const D: usize> Kinds<T, D> {
-    /// The number of a shape, a new one if it was not met before (open addressing).
+    /// The number of a shape, a new one if it was not met before.
     fn find(&mut self, shape: &BondShape<T, D>, nodes: [u32; 2]) -> u16 {
+        let guess = self.after.get(usize::from(self.last)).copied().unwrap_or(0);
+        let kind = match self.shapes.get(usize::from(guess)) {
+            Some(known) if known == shape => guess,
+            _ => self.search(shape, nodes),
+        };
+        if let Some(after) = self.after.get_mut(usize::from(self.last)) {
+            *after = kind;
+        }
+        self.last = kind;
+        kind
+    }
+    /// As [`find`](Self::find), without a guess (open addressing).
+    fn search(&mut self, shape: &BondShape<T, D>, nodes: [u32; 2]) -> u16 {
         let mut hash = 0_u64;
         let numbers = shape.xi.iter().chain(&shape.volumes).chain(&shape.horizons);
         for number in numbers {
@@ -278,6 +305,7 @@ impl<T: Real, const D: usize> Kinds<T, D> {
         self.slots[slot] = kind;
         self.shapes.push(*shape);
         self.samples.push(nodes);
+        self.after.push(0);
         kind
     }
 }
@@ -332,10 +360,15 @@ where
     own: J,
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
-    "x86_64+avx2+fma"
-))]
+// Tests and debug builds compile one version less: each costs a third of their time.
+#[cfg_attr(
+    not(debug_assertions),
+    multiversion(targets(
+        "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+        "x86_64+avx2+fma"
+    ))
+)]
+#[cfg_attr(debug_assertions, multiversion(targets("x86_64+avx2+fma")))]
 fn sweep_chunk<T, const D: usize, Kn, I, J>(
     job: &Job<'_, T, D, Kn, I, J>,
     nodes: Range<usize>,
@@ -680,10 +713,14 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
-    "x86_64+avx2+fma"
-))]
+#[cfg_attr(
+    not(debug_assertions),
+    multiversion(targets(
+        "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+        "x86_64+avx2+fma"
+    ))
+)]
+#[cfg_attr(debug_assertions, multiversion(targets("x86_64+avx2+fma")))]
 fn fuses() -> bool {
     cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma")
 }

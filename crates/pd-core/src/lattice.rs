@@ -1,6 +1,7 @@
 //! Families on a uniform lattice: one table of offsets serves every node.
 //!
-//! Sites lie in rows along x, padded so that every offset of every node stays inside the arrays.
+//! Sites lie in rows along x; rows and planes are parted by as many empty sites as the horizon
+//! reaches, so that one distance leads to a neighbour from every node.
 //! The loop takes a register of consecutive sites at a time ([`Real::WIDTH`]) and runs through the
 //! offsets inside, so that scalar material code becomes vector code. Where a neighbour is missing
 //! (padding, holes, outlines, broken bonds) its lane is masked; blocks with nothing missing skip
@@ -23,6 +24,12 @@ use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
 /// Blocks that one task works on: fixed, so that nothing depends on the number of threads.
 const CHUNK: usize = 64;
+
+/// Most sites that a kernel takes together.
+const WIDEST: usize = 2 * LANES;
+/// Sites before the first node, one block: a neighbour before the arrays is then before every lane of
+/// a block, so all of them are masked, and what stands in for it is never used.
+const LEAD: usize = WIDEST;
 
 /// One entry of the offset table.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +56,6 @@ pub struct Lattice<T, const D: usize> {
     node_site: Vec<u32>,
     sites: usize,
     strides: [usize; D],
-    lead: usize,
     /// One bit per site: is there a node?
     present: Vec<u8>,
     /// Per block: is every neighbour of every lane there?
@@ -62,8 +68,6 @@ struct Layout<const D: usize> {
     /// Cells that bonds span along each axis.
     reaches: [usize; D],
     strides: [usize; D],
-    /// Sites before the first and after the last node.
-    margin: usize,
     sites: usize,
 }
 
@@ -91,8 +95,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         let cell = grid.spacing() / unit;
         let cell_volume: f64 = cell.iter().product();
         let cells = grid.cells();
-        let Layout { reaches, strides, margin, sites } =
-            Self::layout(cells, &cell, delta, quadrature);
+        let Layout { reaches, strides, sites } = Self::layout(cells, &cell, delta, quadrature);
         Error::check(
             sites < u32::MAX as usize,
             "number of lattice sites",
@@ -142,7 +145,6 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             node_site: Vec::with_capacity(grid.len()),
             sites,
             strides,
-            lead: margin,
             present: vec![0; blocks + 1],
             interior: Vec::new(),
             bonds: 0,
@@ -184,11 +186,8 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             let row = strides[d - 1] * (cells[d - 1] + reaches[d - 1]);
             strides[d] = if d == 1 { row.next_multiple_of(T::WIDTH) } else { row };
         }
-        let margin: usize =
-            (0..D).map(|d| strides[d] * reaches[d]).sum::<usize>().next_multiple_of(T::WIDTH)
-                + T::WIDTH;
         let inner: usize = (0..D).map(|d| strides[d] * (cells[d] - 1)).sum::<usize>() + 1;
-        Layout { reaches, strides, margin, sites: inner.next_multiple_of(T::WIDTH) + 2 * margin }
+        Layout { reaches, strides, sites: (LEAD + inner).next_multiple_of(WIDEST) }
     }
     /// Number of sites of a lattice over a box of so many cells with equal edges, for δ = `m` Δx:
     /// what its node arrays will hold, before there is one.
@@ -214,10 +213,10 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         self.offsets.len() / 2
     }
     fn site_of_cell(&self, cell: &[usize; D]) -> usize {
-        self.lead + (0..D).map(|d| cell[d] * self.strides[d]).sum::<usize>()
+        LEAD + (0..D).map(|d| cell[d] * self.strides[d]).sum::<usize>()
     }
     fn cell_of_site(&self, site: usize) -> [usize; D] {
-        let mut rest = site - self.lead;
+        let mut rest = site - LEAD;
         let mut cell = [0; D];
         for d in (0..D).rev() {
             cell[d] = rest / self.strides[d];
@@ -231,7 +230,6 @@ impl<T: Real, const D: usize> Lattice<T, D> {
     /// Presence of the neighbours of the lanes of `block` along an offset.
     #[inline(always)]
     fn present_byte(&self, block: usize, offset: usize) -> u8 {
-        // The outermost blocks are padding: no neighbour of a node lies beyond the arrays.
         let start = (block * LANES) as isize + self.offsets[offset].site;
         if start < 0 || start as usize >= self.sites {
             return 0;
@@ -273,8 +271,9 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         if offset >= half {
             bits.bytes[block * half + offset - half]
         } else {
-            let h = half - 1 - offset;
-            byte_at(self.site_beyond(block, offset), |b| bits.bytes[b * half + h])
+            let (h, start) = (half - 1 - offset, self.site_beyond(block, offset));
+            // No node lies before the arrays.
+            if start < self.sites { byte_at(start, |b| bits.bytes[b * half + h]) } else { 0 }
         }
     }
 }
@@ -512,10 +511,15 @@ where
     largest.into_iter().fold(T::zero(), |a, b| if b > a { b } else { a })
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
-    "x86_64+avx2+fma"
-))]
+// Tests and debug builds compile one version less: each costs a third of their time.
+#[cfg_attr(
+    not(debug_assertions),
+    multiversion(targets(
+        "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+        "x86_64+avx2+fma"
+    ))
+)]
+#[cfg_attr(debug_assertions, multiversion(targets("x86_64+avx2+fma")))]
 fn sweep_chunk<T, const D: usize, Kn, I, J>(
     job: &Job<'_, T, D, Kn, I, J>,
     sites: Range<usize>,
@@ -528,8 +532,9 @@ where
     J: Inputs<T, Value = Kn::Own>,
 {
     let fused = cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma");
-    if T::WIDE {
-        sweep_blocks::<T, D, Kn, I, J, { 2 * LANES }>(job, sites, out, fused)
+    // The optimiser vectorises sums of more numbers than this in loops of sixteen only.
+    if T::WIDE || Kn::Sum::LEN > 4 {
+        sweep_blocks::<T, D, Kn, I, J, WIDEST>(job, sites, out, fused)
     } else {
         sweep_blocks::<T, D, Kn, I, J, LANES>(job, sites, out, fused)
     }
@@ -550,7 +555,7 @@ where
     if sites.len() <= CHUNK * LANES {
         return sweep_chunk(job, sites, out);
     }
-    let mid = (sites.len() / 2).next_multiple_of(T::WIDTH);
+    let mid = (sites.len() / 2).next_multiple_of(WIDEST);
     let (low, high) = <Kn::Out as Record<T>>::split(out, mid);
     let (a, b) = (sites.start..sites.start + mid, sites.start + mid..sites.end);
     let (a, b) = rayon::join(|| sweep_range(job, a, low), || sweep_range(job, b, high));
@@ -571,10 +576,14 @@ where
     marks: &'a [AtomicU8],
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
-    "x86_64+avx2+fma"
-))]
+#[cfg_attr(
+    not(debug_assertions),
+    multiversion(targets(
+        "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
+        "x86_64+avx2+fma"
+    ))
+)]
+#[cfg_attr(debug_assertions, multiversion(targets("x86_64+avx2+fma")))]
 fn break_chunk<T, const D: usize, B, I>(
     job: &TestJob<'_, T, D, B, I>,
     first: usize,

@@ -160,6 +160,22 @@ impl<T: Real> Record<T> for () {
     fn write_lanes<const N: usize>((): &(), (): &mut (), _: usize, _: u32) {}
 }
 
+/// The matrix of the entries `entry(row, column)`. Always inlined: of large matrices
+/// [`from_fn`](nalgebra::Matrix::from_fn) is not, and a call keeps a loop over nodes from being
+/// vectorised. For small ones that is what vectorises best.
+#[inline(always)]
+fn matrix<T: Real, const R: usize, const C: usize>(
+    entry: impl Fn(usize, usize) -> T,
+) -> SMatrix<T, R, C> {
+    let mut matrix = SMatrix::<T, R, C>::zeros();
+    for c in 0..C {
+        for r in 0..R {
+            matrix[(r, c)] = entry(r, c);
+        }
+    }
+    matrix
+}
+
 impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
     const LEN: usize = R * C;
     type PlanesMut<'a> = [[&'a mut [T]; R]; C];
@@ -221,15 +237,16 @@ impl<T: Real, const R: usize, const C: usize> Record<T> for SMatrix<T, R, C> {
     }
     #[inline(always)]
     fn lane<const N: usize>(block: &Planes<'_, T, N>, first: usize, lane: usize) -> Self {
-        Self::from_fn(|r, c| block.plane(first + c * R + r)[lane])
+        let entry = |r, c| block.plane(first + c * R + r)[lane];
+        if R * C > 9 { matrix(entry) } else { Self::from_fn(entry) }
     }
     #[inline(always)]
     fn load(data: &[T], stride: usize, i: usize) -> Self {
-        Self::from_fn(|r, c| data[(c * R + r) * stride + i])
+        matrix(|r, c| data[(c * R + r) * stride + i])
     }
     #[inline(always)]
     fn read(planes: &Self::PlanesMut<'_>, i: usize) -> Self {
-        Self::from_fn(|r, c| planes[c][r][i])
+        matrix(|r, c| planes[c][r][i])
     }
     #[inline(always)]
     fn write(self, planes: &mut Self::PlanesMut<'_>, i: usize) {

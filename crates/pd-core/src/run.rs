@@ -303,7 +303,8 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
         let largest = size(kept.as_slice());
         if apart > T::EPSILON.sqrt() * largest {
             let reason = format!(
-                "are not those of this material and these loads: they differ by {:.1e} of the                  largest",
+                "are not those of this material and these loads: they differ by {:.1e} of the \
+                 largest",
                 apart / largest
             );
             return Err(unlike("forces", reason));
@@ -349,39 +350,40 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
 
     fn call_observers(&mut self, end: f64) -> Result<Flow> {
         let flow = self.show(end)?;
-        let interrupted = self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed));
         let (step, time) = (self.step, self.time);
-        let due = |every: usize| step > 0 && step.is_multiple_of(every);
-        let mut place = None;
-        if self.keeper.as_ref().is_some_and(|(every, _)| interrupted || due(*every)) {
-            self.guard()?;
-            let accounts = self.account.as_ref().map(|account| {
-                let Account { external, power, support_kinetic, dissipated, .. } = account;
-                [*external, *power, *support_kinetic, dissipated.total()]
-            });
-            let (body, integrator) = (&*self.body, &self.integrator);
-            let (critical, refreshed, dt) = (self.critical, self.broken_at_refresh, self.dt);
-            let write = |out: &mut dyn Write| {
-                let spectrum = critical.map(|s| [s.largest, s.lowest, s.residual]);
-                let spectrum: &[f64] = match &spectrum {
-                    Some(values) if values.iter().all(|x| x.is_finite()) => values,
-                    _ => &[],
-                };
-                let energies: &[f64] = accounts.as_ref().map_or(&[], |values| values);
-                let mut state = StateWriter::new(out);
-                state.counts("run", &[step, refreshed, energies.len(), spectrum.len()])?;
-                state.numbers("clock", &[time, dt])?;
-                state.numbers("spectrum", spectrum)?;
-                state.numbers("energies", energies)?;
-                integrator.save(&mut state)?;
-                body.save(&mut state)
-            };
-            let kept = Kept { step, time, interrupted, write: &write };
-            if let Some((_, keeper)) = &mut self.keeper {
-                place = Some(keeper(&kept)?);
+        let interrupted = self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed));
+        let due = |every: usize| interrupted || (step > 0 && step.is_multiple_of(every));
+        let mut kept = None;
+        if let Some((every, mut keeper)) = self.keeper.take() {
+            if due(every) {
+                self.guard()?;
+                let write = |out: &mut dyn Write| self.save(out);
+                kept = Some(keeper(&Kept { step, time, interrupted, write: &write })?);
             }
+            self.keeper = Some((every, keeper));
         }
-        if interrupted { Err(Error::Interrupted { step, time, kept: place }) } else { Ok(flow) }
+        if interrupted { Err(Error::Interrupted { step, time, kept }) } else { Ok(flow) }
+    }
+
+    /// Writes what [`resume`](Self::resume) reads.
+    fn save(&self, out: &mut dyn Write) -> std::io::Result<()> {
+        let spectrum = self.critical.map(|s| [s.largest, s.lowest, s.residual]);
+        // A body without stiffness has no finite one; it is only for show.
+        let spectrum = spectrum.filter(|values| values.iter().all(|x| x.is_finite()));
+        let spectrum: &[f64] = spectrum.as_ref().map_or(&[], |values| values);
+        let energies = self.account.as_ref().map(|account| {
+            let Account { external, power, support_kinetic, dissipated, .. } = account;
+            [*external, *power, *support_kinetic, dissipated.total()]
+        });
+        let energies: &[f64] = energies.as_ref().map_or(&[], |values| values);
+        let counts = [self.step, self.broken_at_refresh, energies.len(), spectrum.len()];
+        let mut state = StateWriter::new(out);
+        state.counts("run", &counts)?;
+        state.numbers("clock", &[self.time, self.dt])?;
+        state.numbers("spectrum", spectrum)?;
+        state.numbers("energies", energies)?;
+        self.integrator.save(&mut state)?;
+        self.body.save(&mut state)
     }
 
     /// Calls the observers that are due.

@@ -38,18 +38,28 @@ pub fn neighbours<const D: usize>(
 ) -> Rows {
     let levels = levels(positions, radius);
     let counts = zeros(positions.len());
-    each_family(&levels, |i, family| counts[i].store(family.len() as u32, Relaxed));
+    let mut found: Vec<Vec<Vec<u32>>> =
+        (0..levels.len()).map(|k| families(&levels, k, &counts)).collect();
+    let counts: Vec<u32> = counts.into_iter().map(AtomicU32::into_inner).collect();
     let mut start = vec![0; positions.len() + 1];
     for (i, count) in counts.iter().enumerate() {
-        start[i + 1] = start[i] + count.load(Relaxed) as usize;
+        start[i + 1] = start[i] + *count as usize;
     }
-    // Each slot is written once. Atomics let the threads follow the cells, which keeps the points
-    // they read in cache, and write rows wherever these lie.
+    // Each slot is written once. Atomics let the threads follow the cells and write rows wherever
+    // these lie.
     let slots = zeros(start[positions.len()]);
-    each_family(&levels, |i, family| {
-        family.sort_unstable();
-        slots[start[i]..].iter().zip(family).for_each(|(slot, j)| slot.store(*j, Relaxed));
-    });
+    for (level, found) in levels.iter().zip(&mut found) {
+        found.par_iter_mut().enumerate().for_each(|(cell, families)| {
+            let mut rest = &mut std::mem::take(families)[..];
+            for p in level.own.points_of(cell) {
+                let i = p.index as usize;
+                let (family, after) = rest.split_at_mut(counts[i] as usize);
+                family.sort_unstable();
+                slots[start[i]..].iter().zip(family).for_each(|(slot, j)| slot.store(*j, Relaxed));
+                rest = after;
+            }
+        });
+    }
     Rows { start, neighbour: slots.into_iter().map(AtomicU32::into_inner).collect() }
 }
 
@@ -99,25 +109,28 @@ fn levels<const D: usize>(
     levels
 }
 
-/// Calls `f` with every point and its neighbours, in no order.
-fn each_family<const D: usize>(levels: &[Level<D>], f: impl Fn(usize, &mut [u32]) + Sync) {
-    for (k, Level { own, finer }) in levels.iter().enumerate() {
-        let of_cell = |(near, family): &mut (Near<D>, Vec<u32>), cell: usize| {
-            let points = &own.points[own.start[cell]..own.start[cell + 1]];
-            let (low, high) = points[1..]
-                .iter()
-                .fold((points[0].x, points[0].x), |(low, high), p| (low.inf(&p.x), high.sup(&p.x)));
-            near.clear();
-            for list in levels[k..].iter().map(|l| &l.own).chain([finer]) {
-                list.around(&low, &high, |points| near.extend(points));
-            }
-            for p in points {
-                near.family(p, family);
-                f(p.index as usize, family);
-            }
-        };
-        (0..own.cells.len()).into_par_iter().for_each_init(Default::default, of_cell);
-    }
+/// The neighbours of the points of level `k`, those of a cell one after the other, and their
+/// number in `counts`. Following the cells keeps the points that are read in cache.
+fn families<const D: usize>(levels: &[Level<D>], k: usize, counts: &[AtomicU32]) -> Vec<Vec<u32>> {
+    let Level { own, finer } = &levels[k];
+    let of_cell = |(near, family): &mut (Near<D>, Vec<u32>), cell: usize| {
+        let points = own.points_of(cell);
+        let (low, high) = points[1..]
+            .iter()
+            .fold((points[0].x, points[0].x), |(low, high), p| (low.inf(&p.x), high.sup(&p.x)));
+        near.clear();
+        for list in levels[k..].iter().map(|l| &l.own).chain([finer]) {
+            list.around(&low, &high, |points| near.extend(points));
+        }
+        let mut found = Vec::new();
+        for p in points {
+            near.family(p, family);
+            counts[p.index as usize].store(family.len() as u32, Relaxed);
+            found.extend_from_slice(family);
+        }
+        found
+    };
+    (0..own.cells.len()).into_par_iter().map_init(Default::default, of_cell).collect()
 }
 
 /// Candidates of one cell, component by component so that the distances vectorise.
@@ -206,6 +219,10 @@ impl<const D: usize> CellList<D> {
         }
         start.push(keyed.len());
         Self { reach, cells, start, points: keyed.into_iter().map(|(_, p)| p).collect() }
+    }
+
+    fn points_of(&self, cell: usize) -> &[Point<D>] {
+        &self.points[self.start[cell]..self.start[cell + 1]]
     }
 
     /// Calls `visit` with the points of all cells within reach of the box `low`..`high`.

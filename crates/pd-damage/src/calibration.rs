@@ -134,13 +134,40 @@ impl<const D: usize> CrackPlane<D> {
     /// # Errors
     /// [`Error::InvalidValue`] for a normal without length.
     pub fn lattice<T: Real>(lattice: &Lattice<T, D>, normal: [f64; D]) -> Result<Self> {
+        Self::shared(lattice, normal, |_| 1.0)
+    }
+    /// The same crack through a body of finite width B in metres along an axis, its front parallel to
+    /// that axis: of the bonds ξ only the share 1 − |ξ_a|/B has both ends in the body, so that
+    /// each must cost more. A beam two horizons wide loses one seventh of its bonds by that.
+    /// Families and moduli are means over the width.
+    ///
+    /// # Errors
+    /// As [`lattice`](Self::lattice), and for a width that is not positive or an axis that is not
+    /// one.
+    pub fn through_width<T: Real>(
+        lattice: &Lattice<T, D>,
+        normal: [f64; D],
+        (axis, width): (usize, f64),
+    ) -> Result<Self> {
+        Error::check(axis < D, "axis of a width", axis as f64, "below the dimension")?;
+        let width = Error::positive("width B [m]", width)?;
+        let unit = lattice.unit();
+        Self::shared(lattice, normal, |xi| (1.0 - xi[axis].abs() * unit / width).max(0.0))
+    }
+    /// The bonds of a lattice, each with the share of it that a body has.
+    fn shared<T: Real>(
+        lattice: &Lattice<T, D>,
+        normal: [f64; D],
+        share: impl Fn(&SVector<f64, D>) -> f64,
+    ) -> Result<Self> {
         let normal = SVector::<f64, D>::from(normal);
         Error::positive("length of the crack's normal", normal.norm())?;
         let n = normal.normalize();
         let unit = lattice.unit();
+        let cell = unit.powi(D as i32);
         let bonds = lattice
             .stencil()
-            .map(|(xi, volume)| (xi.norm() * unit, xi.dot(&n) * unit, volume * unit.powi(D as i32)))
+            .map(|(xi, volume)| (xi.norm() * unit, xi.dot(&n) * unit, volume * cell * share(&xi)))
             .collect();
         let horizon = lattice.scale(0).horizon * unit;
         Ok(Self { horizon, bonds: Bonds::Lattice(bonds) })

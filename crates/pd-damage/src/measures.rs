@@ -108,6 +108,10 @@ impl Measures {
     pub fn hard_least(&mut self, measure: &str, got: f64, least: f64) -> &mut Self {
         self.add(Demand::Hard, measure, &format!("≥ {}", bound(least)), &digits(got), got >= least)
     }
+    /// A measure that is to be at least `least`.
+    pub fn soft_least(&mut self, measure: &str, got: f64, least: f64) -> &mut Self {
+        self.add(Demand::Soft, measure, &format!("≥ {}", bound(least)), &digits(got), got >= least)
+    }
     /// A statement that must hold.
     pub fn hard(&mut self, statement: &str, holds: bool) -> &mut Self {
         self.add(Demand::Hard, statement, "holds", if holds { "holds" } else { "fails" }, holds)
@@ -118,7 +122,12 @@ impl Measures {
     }
     /// True if every HARD measure holds.
     pub fn passed(&self) -> bool {
-        self.rows.iter().all(|row| row.pass || row.demand == Demand::Soft)
+        self.misses().next().is_none()
+    }
+    /// Names of the HARD measures that do not hold.
+    pub fn misses(&self) -> impl Iterator<Item = &str> {
+        let missed = |row: &&Row| !row.pass && row.demand == Demand::Hard;
+        self.rows.iter().filter(missed).map(|row| row.measure.as_str())
     }
     /// The measures of another table, after these.
     pub fn extend(&mut self, other: Self) -> &mut Self {

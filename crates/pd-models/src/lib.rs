@@ -22,8 +22,8 @@ pub use correspondence::{
     SaintVenantKirchhoff, SillingControl, WanControl, ZeroEnergyControl,
 };
 pub use elasticity::{
-    Intensity, Isotropic, Lamina, Orthotropic, PlaneMode, Stiffness, Stroh, TransverselyIsotropic,
-    Wave,
+    Intensity, Isotropic, Lamina, OpeningFit, Orthotropic, PlaneMode, Stiffness, Stroh,
+    TransverselyIsotropic, Wave,
 };
 pub use error::{Error, Result};
 pub use kinematics::{Finite, Kinematics, Linearised};

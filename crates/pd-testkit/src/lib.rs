@@ -7,4 +7,5 @@ pub mod hattori61;
 pub mod infinite_plate;
 pub mod oracle;
 pub mod plane_wave;
+pub mod quads;
 pub mod scabbia63;

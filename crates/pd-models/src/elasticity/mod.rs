@@ -13,5 +13,5 @@ mod waves;
 
 pub use moduli::{Isotropic, Lamina, Orthotropic, PlaneMode, TransverselyIsotropic};
 pub use stiffness::Stiffness;
-pub use stroh::{Intensity, Stroh};
+pub use stroh::{Intensity, OpeningFit, Stroh};
 pub use waves::Wave;

@@ -103,6 +103,59 @@ impl Stroh {
     }
 }
 
+/// Reads stress intensity from the openings at several distances r behind a tip.
+///
+/// One point gives K_app(r) = √(π/8r) L Δu(r) ([`Stroh::intensity`]), which is K + c₁ r near the tip
+/// of a classical crack. A peridynamic crack opens as if its tip were further on by a part r₀ of
+/// the horizon, Δu ∝ √(r + r₀), so that K_app(r) = K (1 + r₀/2r − …): too large by that, however fine
+/// Δx is at a fixed r/δ. Both terms go in a least squares fit
+///
+/// K_app(r) = K + c₁ r + c₂/r,
+///
+/// whose K knows neither; r₀ need not be known. It holds the same for the openings of finite
+/// elements, where c₂/r takes the error of the mesh at the tip.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OpeningFit {
+    /// (r, weight): K = Σ weight K_app(r).
+    points: Vec<(f64, f64)>,
+}
+
+impl OpeningFit {
+    /// One point at the distance r in metres: K_app(r) itself.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] unless positive.
+    pub fn at(r: f64) -> Result<Self> {
+        let r = Error::positive("distance behind a crack tip r [m]", r)?;
+        Ok(Self { points: vec![(r, 1.0)] })
+    }
+    /// The fit over `count` equidistant points from `low` to `high` in metres. Nearer than a horizon
+    /// the opening is no longer that of a shifted tip.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] unless 0 < low < high, or for fewer than three points.
+    pub fn between(low: f64, high: f64, count: usize) -> Result<Self> {
+        Error::positive("distance behind a crack tip r [m]", low)?;
+        Error::check(high > low && high.is_finite(), "end of a fit [m]", high, "above its start")?;
+        Error::check(count >= 3, "points of a fit", count as f64, "at least 3")?;
+        // With x = r/high the sums are of order 1: K is the first of the three coefficients.
+        let place = |k: usize| low / high + (1.0 - low / high) * k as f64 / (count - 1) as f64;
+        let row = |x: f64| nalgebra::Vector3::new(1.0, x, 1.0 / x);
+        let normal: Matrix3<f64> =
+            (0..count).map(|k| row(place(k)) * row(place(k)).transpose()).sum();
+        let first = normal.try_inverse().unwrap_or_else(Matrix3::zeros).column(0).into_owned();
+        let points = (0..count).map(|k| (place(k) * high, row(place(k)).dot(&first))).collect();
+        Ok(Self { points })
+    }
+    /// K from the opening Δu(r), as [`Stroh::intensity`] takes it.
+    pub fn intensity(&self, stroh: &Stroh, opening: impl Fn(f64) -> Vector2<f64>) -> Intensity {
+        self.points.iter().fold(Intensity { i: 0.0, ii: 0.0 }, |sum, &(r, weight)| {
+            let k = stroh.intensity(r, &opening(r));
+            Intensity { i: sum.i + weight * k.i, ii: sum.ii + weight * k.ii }
+        })
+    }
+}
+
 /// The roots of the quartic with Im p > 0, eigenvalues of its companion matrix. Where they
 /// coincide each is known to √ε only, their sum and product to ε.
 fn upper_roots(s: &Matrix3<f64>) -> [Complex<f64>; 2] {
