@@ -7,6 +7,7 @@
 #[path = "scenes.rs"]
 mod scenes;
 use multiversion::multiversion;
+use pd_testkit::clock::{machine, median};
 use peridynamics::prelude::*;
 use scenes::{M, RHO, cloud, grid, lattice, stretch, wave};
 use std::fmt::Write;
@@ -16,32 +17,6 @@ use std::time::Instant;
 /// Cells along an edge of the timed bodies.
 const EDGE2: usize = 256;
 const EDGE3: usize = 48;
-
-/// Seconds this thread has had the processor for (the wall clock where that is not told): other
-/// work on the machine then counts only by what it does to caches and clock.
-fn seconds() -> f64 {
-    thread_local!(static START: Instant = Instant::now());
-    let own = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let own = own.and_then(|s| s.split(' ').next().and_then(|ns| ns.parse::<f64>().ok()));
-    own.map_or_else(|| START.with(|start| start.elapsed().as_secs_f64()), |ns| 1e-9 * ns)
-}
-
-/// Median of the seconds that `work` takes, over `rounds` rounds of at least 30 ms each.
-fn median(rounds: usize, mut work: impl FnMut()) -> f64 {
-    work();
-    let mut times: Vec<f64> = (0..rounds)
-        .map(|_| {
-            let (start, mut count) = (seconds(), 0);
-            while seconds() - start < 0.03 {
-                work();
-                count += 1;
-            }
-            (seconds() - start) / f64::from(count)
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[rounds / 2]
-}
 
 /// FMA in GFLOP/s of one core, f64.
 #[multiversion(targets("x86_64+avx512f+avx512vl+fma", "x86_64+avx2+fma"))]
@@ -250,28 +225,18 @@ fn scaling(report: &mut Report) {
     report.say(&format!("{setup:.2} s, {bytes} bytes per node."));
 }
 
-/// The first line of a command's output.
-fn ask(command: &str, argument: &str) -> String {
-    let output = std::process::Command::new(command).arg(argument).output();
-    output.map_or(String::new(), |o| String::from_utf8_lossy(&o.stdout).trim().to_owned())
-}
-
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let all = words.is_empty();
     let mut report = Report { words, text: String::new(), peak: fma_peak(), bandwidth: triad() };
-    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = info.lines().find_map(|l| l.strip_prefix("model name")).unwrap_or("unknown");
     let mut head = String::new();
     writeln!(
         head,
-        "Written by `cargo bench --bench report` on {}; {}, {} cores. One core: {:.0} GFLOP/s of fused \
+        "Written by `cargo bench --bench report` on {}. One core: {:.0} GFLOP/s of fused \
          multiply-add in f64, {:.1} GB/s of triad. Processor time of one thread: states, bond test \
          and forces of a step (2D {EDGE2}², 3D {EDGE3}³ nodes, m = {M}; nothing breaks). Flops are \
          counted in the source; traffic takes every array of the body once.\n",
-        ask("date", "+%F"),
-        model.trim_start_matches([' ', '\t', ':']),
-        std::thread::available_parallelism().map_or(0, usize::from),
+        machine(),
         report.peak,
         report.bandwidth,
     )
