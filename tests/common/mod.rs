@@ -48,6 +48,7 @@ macro_rules! for_every_material {
         let quarter = Isotropic::from_young_poisson(7e10, 0.25).expect("moduli");
         let stress = PlaneMode::PlaneStress;
         let (flat, deep) = (ring($dx), block($dx));
+        let _ = (&flat, &deep); // not every check needs a body
         $check!(Ordinary::new(Pmb::plane(&third, stress, RHO, OMEGA).expect("m")), flat, 2);
         $check!(Ordinary::new(Pmb::solid(&quarter, RHO, OMEGA).expect("m")), deep, 3);
         let on_family = || Pmb::solid(&quarter, RHO, OMEGA).expect("m").on_family();
