@@ -4,43 +4,19 @@
 //! `cargo bench --bench report` prints it and writes `docs/performance.md`; words after `--` pick
 //! the lines of the first table that contain all of them and write nothing (`-- LPS 3D f64`).
 
+#[path = "scenes.rs"]
+mod scenes;
 use multiversion::multiversion;
+use pd_testkit::clock::{machine, median};
 use peridynamics::prelude::*;
+use scenes::{M, RHO, cloud, grid, lattice, stretch, wave};
 use std::fmt::Write;
 use std::hint::black_box;
 use std::time::Instant;
 
-const M: f64 = 3.015;
-const RHO: f64 = 1000.0;
 /// Cells along an edge of the timed bodies.
 const EDGE2: usize = 256;
 const EDGE3: usize = 48;
-
-/// Seconds this thread has had the processor for (the wall clock where that is not told): other
-/// work on the machine then counts only by what it does to caches and clock.
-fn seconds() -> f64 {
-    thread_local!(static START: Instant = Instant::now());
-    let own = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let own = own.and_then(|s| s.split(' ').next().and_then(|ns| ns.parse::<f64>().ok()));
-    own.map_or_else(|| START.with(|start| start.elapsed().as_secs_f64()), |ns| 1e-9 * ns)
-}
-
-/// Median of the seconds that `work` takes, over `rounds` rounds of at least 30 ms each.
-fn median(rounds: usize, mut work: impl FnMut()) -> f64 {
-    work();
-    let mut times: Vec<f64> = (0..rounds)
-        .map(|_| {
-            let (start, mut count) = (seconds(), 0);
-            while seconds() - start < 0.03 {
-                work();
-                count += 1;
-            }
-            (seconds() - start) / f64::from(count)
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[rounds / 2]
-}
 
 /// FMA in GFLOP/s of one core, f64.
 #[multiversion(targets("x86_64+avx512f+avx512vl+fma", "x86_64+avx2+fma"))]
@@ -85,7 +61,7 @@ struct Line {
     directed: f64,
     bytes: f64,
     /// Wanted ns per directed bond.
-    target: Option<f64>,
+    target: f64,
     /// Flops per directed bond (fused multiply-adds count two), where they were counted.
     flops: Option<f64>,
 }
@@ -111,22 +87,19 @@ impl Line {
         1e9 * self.median / self.directed
     }
     fn row(&self, peak: f64, bandwidth: f64, wide: bool) -> String {
-        let or_dash = |x: Option<f64>, digits: usize| {
-            x.map_or(String::from("–"), |x| format!("{x:.digits$}"))
-        };
         // Single precision has twice the lanes.
         let peak = if wide { 2.0 * peak } else { peak };
         let share = self.flops.map(|f| 100.0 * f / self.per_bond() / peak);
         // Every array of the body is read or written about once per pass.
         let traffic = 100.0 * self.bytes / self.median * 1e-9 / bandwidth;
         format!(
-            "| {} | {:.2} | {} | {:.2} | {:.0} | {} | {traffic:.0} | {:.0} | {:.2} |",
+            "| {} | {:.2} | {:.2} | {:.2} | {:.0} | {} | {traffic:.0} | {:.0} | {:.2} |",
             self.name,
             self.per_bond(),
-            or_dash(self.target, 2),
+            self.target,
             1e-6 * self.nodes / self.median,
             1e-6 * self.directed / self.median,
-            or_dash(share, 0),
+            share.map_or(String::from("–"), |share| format!("{share:.0}")),
             self.bytes / self.nodes,
             self.bytes / self.directed * 2.0,
         )
@@ -149,7 +122,10 @@ impl Report {
     fn wants(&self, name: &str) -> bool {
         self.words.iter().all(|word| name.contains(word.as_str()))
     }
-    fn measure<T, const D: usize, F, M, P>(
+}
+
+impl scenes::Visit for Report {
+    fn scene<T, const D: usize, F, M, P>(
         &mut self,
         name: &str,
         target: f64,
@@ -160,7 +136,7 @@ impl Report {
         M: Material<T, D>,
         P: DamagePolicy<T, D, M>,
     {
-        let name = format!("{name}, {D}D, {}", T::NAME);
+        let name = format!("{name}, {}", T::NAME);
         if !self.wants(&name) {
             return;
         }
@@ -170,7 +146,6 @@ impl Report {
             black_box(&mut body).evaluate_and_break(1, &mut ()).expect("step");
         };
         let median = median(7, step);
-        let wide = T::NAME == "f32";
         let line = Line {
             flops: flops(&name),
             name,
@@ -178,108 +153,11 @@ impl Report {
             nodes: body.nodes() as f64,
             directed: 2.0 * body.family().bonds() as f64,
             bytes: body.memory().total() as f64,
-            target: (target > 0.0).then_some(if wide { 0.55 * target } else { target }),
+            target,
         };
-        let row = line.row(self.peak, self.bandwidth, wide);
+        let row = line.row(self.peak, self.bandwidth, T::NAME == "f32");
         self.say(&row);
     }
-}
-
-/// A smooth displacement, small against Δx = 1.
-fn wave<T, const D: usize, F, M, P>(body: &mut Body<T, D, F, M, P>)
-where
-    T: Real,
-    F: Family<T, D>,
-    M: Material<T, D>,
-    P: DamagePolicy<T, D, M>,
-{
-    body.set_displacement(|x| {
-        SVector::from_fn(|d, _| 1e-4 * ((0.1 + 0.05 * d as f64) * x.sum()).sin())
-    });
-}
-
-fn grid<const D: usize>(cells: usize) -> Grid<D> {
-    Grid::lattice(SVector::zeros(), SVector::repeat(1.0), [cells; D]).expect("grid")
-}
-
-fn lattice<T: Real, const D: usize>(grid: &Grid<D>) -> Lattice<T, D> {
-    Lattice::new(grid, Horizon::Cells(M), Quadrature::None).expect("family")
-}
-
-fn cloud<T: Real, const D: usize>(grid: &Grid<D>) -> Cloud<T, D> {
-    Cloud::new(&Points::from_grid(grid), Horizon::Cells(M), Quadrature::None).expect("family")
-}
-
-/// A criterion that is tested in every step and breaks nothing.
-fn stretch<const D: usize>() -> Breaking<CriticalStretch, D> {
-    Breaking::new(CriticalStretch::new(1.0).expect("criterion"))
-}
-
-fn models<T: Real>(report: &mut Report) {
-    let (flat, deep) = (grid::<2>(EDGE2), grid::<3>(EDGE3));
-    let third = Isotropic::from_young_poisson(1e9, 1.0 / 3.0).expect("moduli");
-    let quarter = Isotropic::from_young_poisson(1e9, 0.25).expect("moduli");
-    let (mode, omega) = (PlaneMode::PlaneStress, InfluenceFunction::Constant);
-    let plane = Stiffness::<2>::isotropic(&third, mode).expect("stiffness");
-    let solid = Stiffness::<3>::isotropic(&quarter).expect("stiffness");
-    macro_rules! both {
-        ($name:literal, $model2:expr, $model3:expr, $lattice:literal, $cloud:literal) => {{
-            let name = concat!($name, ", lattice");
-            report
-                .measure(name, $lattice, || Body::new(lattice::<T, 2>(&flat), $model2, stretch()));
-            report
-                .measure(name, $lattice, || Body::new(lattice::<T, 3>(&deep), $model3, stretch()));
-            let name = concat!($name, ", cloud");
-            report.measure(name, $cloud, || Body::new(cloud::<T, 3>(&deep), $model3, stretch()));
-        }};
-    }
-    both!(
-        "PMB",
-        Ordinary::new(Pmb::plane(&third, mode, RHO, omega).expect("model")),
-        Ordinary::new(Pmb::solid(&quarter, RHO, omega).expect("model")),
-        0.9,
-        3.5
-    );
-    both!(
-        "LPS",
-        Ordinary::new(LinearSolid::plane(&third, mode, RHO, omega).expect("model")),
-        Ordinary::new(LinearSolid::solid(&quarter, RHO, omega).expect("model")),
-        1.6,
-        7.0
-    );
-    both!(
-        "OSB polynomial",
-        Ordinary::new(PolynomialMicromoduli::plane(&plane, RHO, omega).expect("model")),
-        Ordinary::new(PolynomialMicromoduli::solid(&solid, RHO, omega).expect("model")),
-        2.5,
-        10.0
-    );
-    both!(
-        "OSB positive split",
-        Ordinary::new(PositiveSplit::plane(&plane, RHO, omega).expect("model")),
-        Ordinary::new(PositiveSplit::solid(&solid, RHO, omega).expect("model")),
-        2.5,
-        10.0
-    );
-    both!(
-        "NOSB with Wan control",
-        Correspondence::new(LinearElastic(plane), RHO, InfluenceFunction::Linear)
-            .expect("model")
-            .with_control(WanControl::new(&plane, 1.0).expect("control")),
-        Correspondence::new(LinearElastic(solid), RHO, InfluenceFunction::Linear)
-            .expect("model")
-            .with_control(WanControl::new(&solid, 1.0).expect("control")),
-        2.6,
-        9.0
-    );
-    let pmb = || Ordinary::linearised(Pmb::solid(&quarter, RHO, omega).expect("model"));
-    report.measure("PMB linearised, no damage, lattice", 0.6, || {
-        Body::new(lattice::<T, 3>(&deep), pmb(), NoDamage)
-    });
-    let lps = || Ordinary::linearised(LinearSolid::solid(&quarter, RHO, omega).expect("model"));
-    report.measure("LPS linearised, no damage, lattice", 1.1, || {
-        Body::new(lattice::<T, 3>(&deep), lps(), NoDamage)
-    });
 }
 
 fn lps(quarter: &Isotropic) -> Ordinary<LinearSolid> {
@@ -347,28 +225,18 @@ fn scaling(report: &mut Report) {
     report.say(&format!("{setup:.2} s, {bytes} bytes per node."));
 }
 
-/// The first line of a command's output.
-fn ask(command: &str, argument: &str) -> String {
-    let output = std::process::Command::new(command).arg(argument).output();
-    output.map_or(String::new(), |o| String::from_utf8_lossy(&o.stdout).trim().to_owned())
-}
-
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let all = words.is_empty();
     let mut report = Report { words, text: String::new(), peak: fma_peak(), bandwidth: triad() };
-    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = info.lines().find_map(|l| l.strip_prefix("model name")).unwrap_or("unknown");
     let mut head = String::new();
     writeln!(
         head,
-        "Written by `cargo bench --bench report` on {}; {}, {} cores. One core: {:.0} GFLOP/s of fused \
+        "Written by `cargo bench --bench report` on {}. One core: {:.0} GFLOP/s of fused \
          multiply-add in f64, {:.1} GB/s of triad. Processor time of one thread: states, bond test \
          and forces of a step (2D {EDGE2}², 3D {EDGE3}³ nodes, m = {M}; nothing breaks). Flops are \
          counted in the source; traffic takes every array of the body once.\n",
-        ask("date", "+%F"),
-        model.trim_start_matches([' ', '\t', ':']),
-        std::thread::available_parallelism().map_or(0, usize::from),
+        machine(),
         report.peak,
         report.bandwidth,
     )
@@ -381,8 +249,8 @@ fn main() {
     report.say("| --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("pool");
     pool.install(|| {
-        models::<f64>(&mut report);
-        models::<f32>(&mut report);
+        scenes::all::<f64>([EDGE2, EDGE3], &mut report);
+        scenes::all::<f32>([EDGE2, EDGE3], &mut report);
     });
     if all {
         scaling(&mut report);

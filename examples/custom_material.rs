@@ -2,6 +2,7 @@
 //!
 //! `cargo run --release --example custom_material`
 
+use peridynamics::check::{Conditions, Rotations, check_material};
 use peridynamics::prelude::*;
 
 /// A bond that hardens: t = c s (1 + b s²) with the stretch s = e/|ξ|.
@@ -42,12 +43,19 @@ impl<T: Real, const D: usize> Constitutive<T, D> for Bimodular {
 }
 
 fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
+    // Is it a material at all? One line in a test: `check_material(…).assert()`.
+    let hardening = BondBased(Hardening { c: 1e9, b: 100.0 });
+    println!("hardening bonds\n{}", check_material(&hardening, &Conditions::<2>::default()));
+    let law = Bimodular { young: 1e9 };
+    let bimodular = Correspondence::new(law, 1000.0, InfluenceFunction::Linear)?;
+    let small = Conditions { rotations: Rotations::Small, ..Conditions::<2>::default() };
+    println!("bimodular solid\n{}", check_material(&bimodular, &small));
+
     let grid = Grid::new(&Cuboid::centred([0.02, 0.02])?, 1e-3)?;
     let family = Lattice::<f64, 2>::new(&grid, Horizon::Cells(3.0), Quadrature::LinearRamp)?;
 
     // The same law serves every family, precision and dimension.
-    let law = BondBased(Hardening { c: 1e9, b: 100.0 });
-    let mut spring = Body::new(family.clone(), law, NoDamage)?;
+    let mut spring = Body::new(family.clone(), hardening, NoDamage)?;
     let centre = grid.nearest(&SVector::zeros());
     println!("hardening bonds: force density near the edge of a stretched plate");
     for strain in [0.01, 0.05, 0.1] {
@@ -56,8 +64,7 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
         println!("  strain {strain:4.2}: {:9.3e} N/m³", spring.force_density(0).norm());
     }
 
-    let law = Correspondence::new(Bimodular { young: 1e9 }, 1000.0, InfluenceFunction::Linear)?;
-    let mut plate = Body::new(family, law, NoDamage)?;
+    let mut plate = Body::new(family, bimodular, NoDamage)?;
     println!("bimodular solid: stress at the centre");
     for strain in [1e-3, -1e-3] {
         plate.set_displacement(|x| [x[0] * strain, 0.0].into());

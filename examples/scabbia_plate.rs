@@ -14,22 +14,15 @@ mod common;
 
 use common::{Effort, Outcome, at_most, close_to, done, head, reported, watch};
 use pd_testkit::fem::Displacements;
+use pd_testkit::scabbia63::{HEIGHT, LENGTH, PRESSURE, Plate, Solution as Solution63};
 use peridynamics::io::{ColourMap, FieldMap};
 use peridynamics::models::elasticity::catalogue::GLASS_EPOXY;
 use peridynamics::models::{OnFamily, ScalarState};
 use peridynamics::prelude::*;
 use std::time::Instant;
 
-const LENGTH: f64 = 0.3;
-const HEIGHT: f64 = 0.2;
-const PRESSURE: f64 = 10e6;
 /// Deformed shapes are drawn magnified by this, as in the paper.
 const SCALE: f64 = 50.0;
-
-struct Plate {
-    dx: f64,
-    m: f64,
-}
 
 /// The solved plate, on its grid.
 struct Solution {
@@ -38,33 +31,26 @@ struct Solution {
     reaction: f64,
 }
 
-impl Plate {
-    fn solve<S: ScalarState<f64, 2>>(&self, name: &str, model: S, depth: f64) -> Outcome<Solution> {
-        let horizon = self.m * self.dx;
-        let layer = (self.m.ceil() * self.dx).max(self.dx);
-        let grid = Grid::new(&Cuboid::new([-layer, 0.0], [LENGTH, HEIGHT])?, self.dx)?;
-        let family = Lattice::<f64, 2>::new(&grid, Horizon::Metres(horizon), Quadrature::Exact)?;
-        let mut body = Body::new(family, Ordinary::linearised(model), NoDamage)?;
-        let clamp = grid.select(|x| x[0] < 0.0);
-        let loaded = grid.select(|x| x[0] > LENGTH - depth && x[1] > 0.5 * HEIGHT);
-        // The same total force whatever the layer: pressure × edge over the layer's area.
-        let area = loaded.len() as f64 * grid.cell_volume();
-        let density = PRESSURE * 0.5 * HEIGHT / area;
-        let loads = Loads::new().clamp::<2>(&clamp).body_force(&loaded, 0, density);
-        let start = Instant::now();
-        let solver = Statics::new().with_tolerance(1e-6)?;
-        let solved = solver.solve_watched(&mut body, loads, watch(name))?;
-        done();
-        let reaction = peridynamics::core::run::reaction(&body, &clamp)[0];
-        println!(
-            "{name}: {} nodes, {} iterations, {:.1} s",
-            body.nodes(),
-            solved.iterations,
-            start.elapsed().as_secs_f64()
-        );
-        let u = (0..body.nodes()).map(|i| body.displacement(i)).collect();
-        Ok(Solution { grid, u, reaction })
-    }
+fn solve<S: ScalarState<f64, 2>>(
+    name: &str,
+    model: S,
+    (dx, m): (f64, f64),
+    depth: f64,
+) -> Outcome<Solution> {
+    let start = Instant::now();
+    let plate = Plate { dx, m, quadrature: Quadrature::Exact, depth, tolerance: 1e-6 };
+    let Solution63 { body, clamp, solved } =
+        plate.solve::<f64, _>(Ordinary::linearised(model), watch(name))?;
+    done();
+    println!(
+        "{name}: {} nodes, {} iterations, {:.1} s",
+        body.nodes(),
+        solved.iterations,
+        start.elapsed().as_secs_f64()
+    );
+    let reaction = peridynamics::core::run::reaction(&body, &clamp)[0];
+    let u = (0..body.nodes()).map(|i| body.displacement(i)).collect();
+    Ok(Solution { grid: body.family().grid().clone(), u, reaction })
 }
 
 fn draw(file: &str, title: &str, solution: &Solution, dx: f64) -> Outcome {
@@ -81,34 +67,30 @@ fn draw(file: &str, title: &str, solution: &Solution, dx: f64) -> Outcome {
 
 fn main() -> Outcome {
     let effort = Effort::from_arguments();
-    let plate = effort.choose(
-        Plate { dx: 5e-3, m: 5.0 },
-        Plate { dx: 1e-3, m: 5.0 },
-        Plate { dx: 1e-3, m: 5.0 },
-    );
-    let dx = plate.dx;
+    let (dx, m) = (effort.choose(5e-3, 1e-3, 1e-3), 5.0);
+    let plate = (dx, m);
     let fem = Displacements::read("scabbia63", ["ux_edge", "uy_edge"]);
     let fem_layer = Displacements::read("scabbia63", ["ux_layer5mm", "uy_layer5mm"]);
     let stiffness = Stiffness::<2>::lamina(&GLASS_EPOXY)?.rotated(40_f64.to_radians());
     let polynomial = PolynomialMicromoduli::plane(&stiffness, 1e3, InfluenceFunction::Gaussian)?;
     let split = PositiveSplit::plane(&stiffness, 1e3, InfluenceFunction::Gaussian)?;
-    println!("Δx = {} mm, m = {}", dx * 1e3, plate.m);
+    println!("Δx = {} mm, m = {m}", dx * 1e3);
 
-    let thick = plate.m * dx;
+    let thick = m * dx;
     let mut runs = vec![
-        ("paper", plate.solve("paper", polynomial.clone(), thick)?),
-        ("positive split", plate.solve("positive split", split.clone(), thick)?),
-        ("positive split, load in one row", plate.solve("split, one row", split, dx)?),
+        ("paper", solve("paper", polynomial.clone(), plate, thick)?),
+        ("positive split", solve("positive split", split.clone(), plate, thick)?),
+        ("positive split, load in one row", solve("split, one row", split, plate, dx)?),
     ];
     let corrected = OnFamily::new(polynomial.clone(), &stiffness);
     if effort != Effort::Default {
         let name = "polynomial, load in one row";
-        runs.push((name, plate.solve(name, polynomial, dx)?));
+        runs.push((name, solve(name, polynomial, plate, dx)?));
         let name = "polynomial, corrected";
-        runs.push((name, plate.solve(name, corrected.clone(), thick)?));
+        runs.push((name, solve(name, corrected.clone(), plate, thick)?));
     }
     let name = "polynomial, corrected, load in one row";
-    runs.push((name, plate.solve(name, corrected, dx)?));
+    runs.push((name, solve(name, corrected, plate, dx)?));
 
     let at_paper = dx == 1e-3;
     head();

@@ -15,7 +15,7 @@ mod common;
 
 use common::{Effort, Outcome, at_most, head, reported};
 use pd_testkit::fem::table;
-use pd_testkit::infinite_plate::InfinitePlate;
+use pd_testkit::infinite_plate::{InfinitePlate, Square, hoop};
 use peridynamics::io::{ColourMap, FieldMap, LinePlot};
 use peridynamics::models::elasticity::catalogue::{GLASS_EPOXY, GRAPHITE_EPOXY};
 use peridynamics::prelude::*;
@@ -26,6 +26,7 @@ const STRESS: f64 = 1e6;
 const A: f64 = 20e-3;
 const M: f64 = 3.0;
 
+/// A solved square: the grid, the displacements and their errors inside.
 struct Solved {
     grid: Grid<2>,
     u: Vec<SVector<f64, 2>>,
@@ -34,7 +35,6 @@ struct Solved {
     errors: Vec<(SVector<f64, 2>, f64)>,
 }
 
-/// Solves the square of half edge `half` without what `keep` drops, with `exact` prescribed outside.
 fn solve<P>(
     stiffness: &Stiffness<2>,
     policy: P,
@@ -45,24 +45,13 @@ fn solve<P>(
 where
     P: DamagePolicy<f64, 2, Ordinary<PositiveSplit<2, 3>, peridynamics::models::Linearised>>,
 {
-    let collar = 2.0 * (M + 1.0) * dx;
-    let grid = Grid::new(&Cuboid::centred([2.0 * (half + collar); 2])?, dx)?.retain(keep)?;
-    let family = Lattice::<f64, 2>::new(&grid, Horizon::Cells(M), Quadrature::Exact)?;
     let model = PositiveSplit::plane(stiffness, 1e3, InfluenceFunction::Gaussian)?;
-    let mut body = Body::new(family, Ordinary::linearised(model), policy)?;
-    let mut loads = Loads::new();
-    for node in grid.select(|x| x.amax() > half).iter() {
-        let one = NodeSet::from_nodes([node], grid.len())?;
-        let u = exact(&grid.position(node));
-        loads = loads.displacement(&one, 0, u[0]).displacement(&one, 1, u[1]);
-    }
-    Statics::new().solve(&mut body, loads)?;
+    let square = Square { half, dx, m: M, quadrature: Quadrature::Exact };
+    let parts = (Ordinary::linearised(model), policy);
+    let (body, _) = square.solve::<f64, _, _>(parts, Statics::new(), keep, &exact)?;
+    let grid = body.family().grid().clone();
     let u: Vec<_> = (0..grid.len()).map(|i| body.displacement(i)).collect();
-    let size = (0..grid.len()).map(|i| exact(&grid.position(i)).norm()).fold(0.0, f64::max);
-    let errors: Vec<_> = (0..grid.len())
-        .map(|i| (grid.position(i), (u[i] - exact(&grid.position(i))).norm() / size))
-        .filter(|(x, _)| x.amax() < half)
-        .collect();
+    let errors = square.errors(&grid, |i| u[i], exact);
     let error = errors.iter().map(|e| e.1).fold(0.0, f64::max);
     Ok(Solved { grid, u, error, errors })
 }
@@ -124,23 +113,6 @@ fn crack(name: &str, ply: &Lamina, degrees: f64, dx: f64, limit: f64) -> Outcome
     Ok(())
 }
 
-/// Hoop stress at an angle on the hole, by a quadratic fit to the displacements near it.
-fn hoop(solved: &Solved, stiffness: &Stiffness<2>, degrees: f64, window: f64) -> f64 {
-    let (sine, cosine) = degrees.to_radians().sin_cos();
-    let edge = SVector::from([cosine, sine]) * A;
-    let (mut normal, mut right) = (SMatrix::<f64, 6, 6>::zeros(), SMatrix::<f64, 6, 2>::zeros());
-    for node in solved.grid.select(|x| (x - edge).norm() < window).iter() {
-        let d = (solved.grid.position(node) - edge) / window;
-        let row = SVector::<f64, 6>::from([1.0, d.x, d.y, d.x * d.x, d.x * d.y, d.y * d.y]);
-        normal += row * row.transpose();
-        right += row * solved.u[node].transpose();
-    }
-    let fit = normal.try_inverse().map_or(SMatrix::zeros(), |inverse| inverse * right);
-    let h = SMatrix::<f64, 2, 2>::from_fn(|i, j| fit[(1 + j, i)] / window);
-    let t = SVector::from([-sine, cosine]);
-    t.dot(&(stiffness.contract(&((h + h.transpose()) * 0.5)) * t))
-}
-
 fn hole(name: &str, ply: &Lamina, column: &str, degrees: f64, dx: f64, limit: f64) -> Outcome {
     let stiffness = Stiffness::<2>::lamina(ply)?.rotated(degrees.to_radians());
     let plate = InfinitePlate::new(&stiffness, SMatrix::from([[STRESS, 0.0], [0.0, 0.0]]));
@@ -150,8 +122,9 @@ fn hole(name: &str, ply: &Lamina, column: &str, degrees: f64, dx: f64, limit: f6
     draw(&format!("hole {name}"), &solved, dx)?;
     let reference = table("lekhnitskii_hole");
     let (angles, exact) = (&reference["theta_deg"], &reference[column]);
-    let got: Vec<f64> =
-        angles.iter().map(|&angle| hoop(&solved, &stiffness, angle, 4.0 * dx) / STRESS).collect();
+    let field = |i: usize| solved.u[i];
+    let at = |angle: f64| hoop((&solved.grid, field), &stiffness, A, angle, 4.0 * dx);
+    let got: Vec<f64> = angles.iter().map(|&angle| at(angle) / STRESS).collect();
     let largest = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let (peak, exact_peak) = (largest(&got), largest(exact));
     println!(

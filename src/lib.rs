@@ -87,17 +87,24 @@ pub use pd_damage as damage;
 pub use pd_io as io;
 pub use pd_models as models;
 
+pub mod advise;
+pub mod check;
 #[cfg(feature = "io")]
 pub mod checkpoint;
 #[cfg(feature = "io")]
 pub mod observe;
 #[cfg(feature = "io")]
 pub mod study;
+#[cfg(feature = "io")]
+pub mod trade;
 
 /// Everything a simulation needs.
 pub mod prelude {
+    pub use crate::advise::{Advice, Advisor};
     #[cfg(feature = "io")]
     pub use crate::checkpoint::Checkpoint;
+    #[cfg(feature = "io")]
+    pub use crate::trade::{Cost, Study};
     pub use nalgebra::{SMatrix, SVector};
     pub use pd_core::body::{Body, Dynamics};
     pub use pd_core::bond::{Bond, End, Neighbourhood, Scale};

@@ -120,3 +120,101 @@ fn a_cloud_holds_compressed_rows() {
     check::<f64>(8);
     check::<f32>(4);
 }
+
+/// What a capability adds to a body's arrays, and nothing else: each line is one capability off and
+/// on, with the parts that may differ. Off and on are otherwise the same to the byte.
+#[test]
+fn a_capability_costs_its_own_arrays_alone() {
+    type Parts = [usize; 8];
+    const NAMES: [&str; 8] = [
+        "family",
+        "bond constants",
+        "bond bits",
+        "node constants",
+        "node states",
+        "criterion",
+        "motion",
+        "density",
+    ];
+    fn parts<F, M, P>(body: peridynamics::core::Result<Body<f64, 3, F, M, P>>) -> Parts
+    where
+        F: Family<f64, 3>,
+        M: Material<f64, 3>,
+        P: DamagePolicy<f64, 3, M>,
+    {
+        let m = body.expect("body").memory();
+        let constants = [m.family, m.bond_constants, m.bond_bits, m.node_constants];
+        let others = [m.node_states, m.criterion, m.motion, m.density];
+        std::array::from_fn(|i| if i < 4 { constants[i] } else { others[i - 4] })
+    }
+    fn differ(name: &str, off: Parts, on: Parts, expected: &[(&str, usize)]) {
+        for (i, part) in NAMES.iter().enumerate() {
+            let more = expected.iter().find(|e| e.0 == *part).map_or(0, |e| e.1);
+            assert_eq!(on[i], off[i] + more, "{name}: {part}");
+        }
+    }
+    let moduli = Isotropic::from_young_poisson(7e10, 0.2).expect("moduli");
+    let stiffness = Stiffness::<3>::isotropic(&moduli).expect("stiffness");
+    let (constant, linear) = (InfluenceFunction::Constant, InfluenceFunction::Linear);
+    let solid = || LinearSolid::solid(&moduli, 1e3, constant).expect("material");
+    let lps = || Ordinary::new(solid());
+    let grid = cube(16.0);
+    let lattice = || {
+        let horizon = Horizon::Cells(3.015);
+        Lattice::<f64, 3>::new(&grid, horizon, Quadrature::None).expect("family")
+    };
+    let sites = Family::<f64, 3>::sites(&lattice());
+    let plain = parts(Body::new(lattice(), lps(), NoDamage));
+    let scalar = size_of::<f64>() * sites;
+    assert_eq!(plain[3..6], [scalar, scalar, 0], "1/m, θ and no criterion");
+
+    differ(
+        "small strain",
+        plain,
+        parts(Body::new(lattice(), Ordinary::linearised(solid()), NoDamage)),
+        &[],
+    );
+    let region = (0..grid.len()).map(|node| u8::from(grid.position(node)[0] > 0.0)).collect();
+    // The region of a node is in the material, its constants double: one set per region and offset.
+    let regions = Regions::new([lps(), lps()], region).expect("regions");
+    let two = parts(Body::new(lattice(), regions, NoDamage));
+    assert_eq!((two[0], two[2], two[5], two[6]), (plain[0], 0, 0, plain[6]));
+
+    let notch = || {
+        let edges = ([-9.0, 0.1, -9.0], [9.0, 0.0, 0.0], [0.0, 0.0, 18.0]);
+        Polygon::parallelogram(edges.0, edges.1, edges.2).expect("notch")
+    };
+    let cracked = parts(Body::new(lattice(), lps(), Precracked::by(notch())));
+    let blocks = sites / 8;
+    let bits = blocks * (lattice().offsets() / 2) + 2 * blocks;
+    let held = cracked[2];
+    assert!(held.abs_diff(bits) <= 16, "{held} bytes of bits, not {bits}");
+    differ("pre-crack", plain, cracked, &[("bond bits", held)]);
+    let stretch = Breaking::new(CriticalStretch::new(0.01).expect("criterion"));
+    let breaking = parts(Body::new(lattice(), lps(), stretch.precracked(notch())));
+    differ("critical stretch", cracked, breaking, &[]);
+    let energy = || BondEnergy::new(1e9).expect("criterion");
+    let breaking = parts(Body::new(lattice(), lps(), Breaking::new(energy()).precracked(notch())));
+    differ("bond energy", cracked, breaking, &[]);
+    let some = grid.select(|x| x[0] < -6.0);
+    let spared = Breaking::new(energy().sparing(&some)).precracked(notch());
+    let spared = parts(Body::new(lattice(), lps(), spared));
+    differ("nodes that cannot fail", cracked, spared, &[("criterion", scalar)]);
+
+    let nosb = || Correspondence::new(LinearElastic(stiffness), 1e3, linear).expect("law");
+    let bare = parts(Body::new(lattice(), nosb(), NoDamage));
+    let law = SaintVenantKirchhoff(stiffness);
+    let finite = Correspondence::new(law, 1e3, linear).expect("law");
+    differ("finite strain", bare, parts(Body::new(lattice(), finite, NoDamage)), &[]);
+
+    // One horizon per node, all alike, is one number per node: shapes of bonds are shared.
+    let points = Points::from_grid(&grid);
+    let one = Cloud::new(&points, Horizon::Metres(3.015), Quadrature::None).expect("cloud");
+    let each = vec![3.015; points.len()];
+    let graded = Cloud::graded(&points, &each, Quadrature::None).expect("cloud");
+    let one = parts(Body::new(one, lps(), NoDamage));
+    let numbers = size_of::<f64>() * (points.len() - 1);
+    let graded = parts(Body::new(graded, lps(), NoDamage));
+    // Both ends of a bond have constants of their own, also where they are alike.
+    differ("dual horizon", one, graded, &[("family", numbers), ("bond constants", one[1])]);
+}

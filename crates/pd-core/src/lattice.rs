@@ -27,6 +27,9 @@ const CHUNK: usize = 64;
 
 /// Most sites that a kernel takes together.
 const WIDEST: usize = 2 * LANES;
+/// Sites before the first node, one block: a neighbour before the arrays is then before every lane of
+/// a block, so all of them are masked, and what stands in for it is never used.
+const LEAD: usize = WIDEST;
 
 /// One entry of the offset table.
 #[derive(Debug, Clone, Copy)]
@@ -53,12 +56,19 @@ pub struct Lattice<T, const D: usize> {
     node_site: Vec<u32>,
     sites: usize,
     strides: [usize; D],
-    lead: usize,
     /// One bit per site: is there a node?
     present: Vec<u8>,
     /// Per block: is every neighbour of every lane there?
     interior: Vec<bool>,
     bonds: usize,
+}
+
+/// Where the nodes of a box of cells lie in the arrays.
+struct Layout<const D: usize> {
+    /// Cells that bonds span along each axis.
+    reaches: [usize; D],
+    strides: [usize; D],
+    sites: usize,
 }
 
 /// One bit per undirected bond, those of eight consecutive nodes and one offset in a byte.
@@ -84,21 +94,8 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         let delta = horizon.in_units(unit)?;
         let cell = grid.spacing() / unit;
         let cell_volume: f64 = cell.iter().product();
-        let reach = quadrature.reach(&cell, delta);
-        let reaches: [usize; D] =
-            std::array::from_fn(|d| (reach / cell[d] * (1.0 + 1e-9)).floor() as usize);
         let cells = grid.cells();
-
-        let mut strides = [1; D];
-        for d in 1..D {
-            let row = strides[d - 1] * (cells[d - 1] + reaches[d - 1]);
-            strides[d] = if d == 1 { row.next_multiple_of(T::WIDTH) } else { row };
-        }
-        // One block before the first node: a neighbour before the arrays is then before every lane
-        // of a block, so all of them are masked, and what stands in for it is never used.
-        let lead = WIDEST;
-        let inner: usize = (0..D).map(|d| strides[d] * (cells[d] - 1)).sum::<usize>() + 1;
-        let sites = (lead + inner).next_multiple_of(WIDEST);
+        let Layout { reaches, strides, sites } = Self::layout(cells, &cell, delta, quadrature);
         Error::check(
             sites < u32::MAX as usize,
             "number of lattice sites",
@@ -148,7 +145,6 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             node_site: Vec::with_capacity(grid.len()),
             sites,
             strides,
-            lead,
             present: vec![0; blocks + 1],
             interior: Vec::new(),
             bonds: 0,
@@ -176,6 +172,29 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         Ok(lattice)
     }
 
+    fn layout(
+        cells: [usize; D],
+        cell: &SVector<f64, D>,
+        delta: f64,
+        quadrature: Quadrature,
+    ) -> Layout<D> {
+        let reach = quadrature.reach(cell, delta);
+        let reaches: [usize; D] =
+            std::array::from_fn(|d| (reach / cell[d] * (1.0 + 1e-9)).floor() as usize);
+        let mut strides = [1; D];
+        for d in 1..D {
+            let row = strides[d - 1] * (cells[d - 1] + reaches[d - 1]);
+            strides[d] = if d == 1 { row.next_multiple_of(T::WIDTH) } else { row };
+        }
+        let inner: usize = (0..D).map(|d| strides[d] * (cells[d] - 1)).sum::<usize>() + 1;
+        Layout { reaches, strides, sites: (LEAD + inner).next_multiple_of(WIDEST) }
+    }
+    /// Number of sites of a lattice over a box of so many cells with equal edges, for δ = `m` Δx:
+    /// what its node arrays will hold, before there is one.
+    pub fn sites_of(cells: [usize; D], m: f64, quadrature: Quadrature) -> usize {
+        Self::layout(cells, &SVector::repeat(1.0), m, quadrature).sites
+    }
+
     /// The grid this lattice was made from.
     pub fn grid(&self) -> &Grid<D> {
         &self.grid
@@ -194,10 +213,10 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         self.offsets.len() / 2
     }
     fn site_of_cell(&self, cell: &[usize; D]) -> usize {
-        self.lead + (0..D).map(|d| cell[d] * self.strides[d]).sum::<usize>()
+        LEAD + (0..D).map(|d| cell[d] * self.strides[d]).sum::<usize>()
     }
     fn cell_of_site(&self, site: usize) -> [usize; D] {
-        let mut rest = site - self.lead;
+        let mut rest = site - LEAD;
         let mut cell = [0; D];
         for d in (0..D).rev() {
             cell[d] = rest / self.strides[d];

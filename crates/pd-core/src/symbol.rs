@@ -39,6 +39,7 @@ pub struct Symbol<const D: usize> {
     constants: Vec<(SVector<f64, D>, SMatrix<f64, D, D>)>,
     spacing: SVector<f64, D>,
     density: f64,
+    uneven: f64,
 }
 
 /// A plane wave that the lattice carries.
@@ -169,7 +170,7 @@ impl<const D: usize> Symbol<D> {
         // Lexicographic order: x and −x are as far from the two ends.
         let centre = grid.len() / 2;
         let k = probe(&mut body, centre)?;
-        check(&k)?;
+        let uneven = check(&k)?;
 
         let to_si = -4.0 / (unit * unit);
         let constants = (centre + 1..grid.len())
@@ -182,7 +183,7 @@ impl<const D: usize> Symbol<D> {
             })
             .filter(|(_, k)| k.amax() > 0.0)
             .collect();
-        Ok(Self { constants, spacing, density: material.density(centre) })
+        Ok(Self { constants, spacing, density: material.density(centre), uneven })
     }
 
     /// ρ D(k) in Pa/m² for a wave vector k in 1/m.
@@ -333,6 +334,11 @@ impl<const D: usize> Symbol<D> {
         self.density
     }
 
+    /// How far the force constants are from K(x) = K(−x) = K(x)ᵀ, relative to the largest one.
+    pub fn asymmetry(&self) -> f64 {
+        self.uneven
+    }
+
     /// Σ |K(x)| in Pa/m² over the neighbours x of a node (spectral norms): how strongly it is tied
     /// to them. For a bond-based material Σ c V/|ξ|.
     pub fn stiffness_sum(&self) -> f64 {
@@ -401,8 +407,8 @@ fn probe<const D: usize, M: Material<f64, D>>(
     Ok(k)
 }
 
-/// Balance of forces, and the symmetries of an elastic bulk lattice.
-fn check<const D: usize>(k: &[SMatrix<f64, D, D>]) -> Result<()> {
+/// Balance of forces, and the symmetries of an elastic bulk lattice; how far they are from exact.
+fn check<const D: usize>(k: &[SMatrix<f64, D, D>]) -> Result<f64> {
     let largest = k.iter().map(SMatrix::amax).fold(0.0, f64::max);
     let sum: SMatrix<f64, D, D> = k.iter().sum();
     let uneven = k
@@ -419,7 +425,7 @@ fn check<const D: usize>(k: &[SMatrix<f64, D, D>]) -> Result<()> {
             return Err(Error::ForceConstants { rule, relative });
         }
     }
-    Ok(())
+    Ok(uneven / largest)
 }
 
 fn unit_vector<const D: usize>(direction: &SVector<f64, D>) -> Result<SVector<f64, D>> {

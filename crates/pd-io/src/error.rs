@@ -119,6 +119,32 @@ pub enum Error {
         /// Time of the step before, in seconds.
         last: f64,
     },
+    /// The file to go on with is not of this table.
+    #[error(
+        "{} is another table, not to be overwritten: it begins '{found}', not '{wanted}'; move it \
+         away or give another path",
+        path.display()
+    )]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// Its first two lines.
+        found: String,
+        /// Those of the table asked for.
+        wanted: String,
+    },
+    /// A whole line of a table has not one cell per column.
+    #[error("{}, line {line}: {given} cells for {wanted} columns: remove the line", path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// Its cells.
+        given: usize,
+        /// The columns.
+        wanted: usize,
+    },
     /// There is nothing to write.
     #[error("{}: nothing to write: give at least one {what}", path.display())]
     Empty {

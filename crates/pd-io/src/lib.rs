@@ -13,7 +13,7 @@ pub mod plot;
 pub mod polar;
 pub mod vtk;
 
-pub use csv::History;
+pub use csv::{History, Ledger};
 pub use error::{Error, Result};
 pub use map::{ColourMap, FieldMap};
 pub use plot::LinePlot;

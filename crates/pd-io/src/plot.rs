@@ -18,6 +18,8 @@ pub struct LinePlot {
     title: String,
     labels: [String; 2],
     lines: Vec<(String, Vec<(f64, f64)>)>,
+    /// Of the lines, those that are dots only.
+    loose: Vec<bool>,
     log: bool,
 }
 
@@ -25,11 +27,19 @@ impl LinePlot {
     /// With a title and axis labels (with units).
     pub fn new(title: &str, x: &str, y: &str) -> Self {
         let labels = [x.to_owned(), y.to_owned()];
-        Self { title: title.to_owned(), labels, lines: Vec::new(), log: false }
+        let (lines, loose) = (Vec::new(), Vec::new());
+        Self { title: title.to_owned(), labels, lines, loose, log: false }
     }
     /// Adds a line through points; a single point is a dot.
     pub fn line(mut self, name: &str, points: &[(f64, f64)]) -> Self {
         self.lines.push((name.to_owned(), points.to_vec()));
+        self.loose.push(false);
+        self
+    }
+    /// Adds points that no line joins.
+    pub fn dots(mut self, name: &str, points: &[(f64, f64)]) -> Self {
+        self.lines.push((name.to_owned(), points.to_vec()));
+        self.loose.push(true);
         self
     }
     /// Logarithmic axes and a dot at every point, for errors over grid spacings: an order of
@@ -86,8 +96,10 @@ impl LinePlot {
         for (k, (_, points)) in self.lines.iter().enumerate() {
             let places: Vec<_> =
                 points.iter().map(|p| (px(x_axis.place(p.0)), py(y_axis.place(p.1)))).collect();
-            canvas.polyline(&places, 2, curve_colour(k));
-            for &place in places.iter().filter(|_| self.log) {
+            if !self.loose[k] {
+                canvas.polyline(&places, 2, curve_colour(k));
+            }
+            for &place in places.iter().filter(|_| self.log || self.loose[k]) {
                 canvas.dot(place, curve_colour(k));
             }
         }

@@ -58,7 +58,7 @@ fn determinant<T: Real, const D: usize>(a: &SMatrix<T, D, D>) -> T {
     }
 }
 
-/// F⁻ᵀ det F for D = 2, 3 (the cofactor matrix).
+/// A⁻ᵀ det A for D = 2, 3 (the cofactor matrix).
 #[inline(always)]
 fn cofactor<T: Real, const D: usize>(a: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {
     SMatrix::from_fn(|i, j| {
@@ -141,26 +141,51 @@ impl NeoHookean {
     }
 }
 
+impl NeoHookean {
+    /// J − 1 = tr H + q and cof F − 1, both by powers of H, so that small strains keep their digits;
+    /// q first.
+    #[inline(always)]
+    fn volume_change<T: Real, const D: usize>(h: &SMatrix<T, D, D>) -> (T, T, SMatrix<T, D, D>) {
+        let trace = h.trace();
+        let linear = SMatrix::identity() * trace - h.transpose();
+        let (square, cofactor) = if D == 3 {
+            let cofactor = cofactor(h);
+            (cofactor.trace() + determinant(h), linear + cofactor)
+        } else {
+            (determinant(h), linear)
+        };
+        (square, trace + square, cofactor)
+    }
+}
+
 impl<T: Real, const D: usize> Constitutive<T, D> for NeoHookean {
     const NEEDS_POSITIVE_J: bool = true;
+    /// μ(F − F⁻ᵀ) = μ(H + ((J − 1) − (cof F − 1))/J).
     #[inline(always)]
     fn stress(&self, h: &SMatrix<T, D, D>) -> SMatrix<T, D, D> {
-        let f = h + SMatrix::identity();
-        let j = determinant(&f);
-        let inverse_transpose = cofactor(&f) / j;
+        let (_, excess, cofactor) = Self::volume_change(h);
+        let inverse_j = (T::one() + excess).recip();
         let (lambda, mu) = (T::of(self.lambda), T::of(self.mu));
-        f * mu + inverse_transpose * (lambda * j.ln() - mu)
+        let one = SMatrix::<T, D, D>::identity();
+        let shear = h + (one * excess - cofactor) * inverse_j;
+        shear * mu + (one + cofactor) * (inverse_j * lambda * excess.ln_1p())
     }
 }
 
 impl<T: Real, const D: usize> Hyperelastic<T, D> for NeoHookean {
+    /// tr FᵀF − D − 2 ln J = H:H − 2q + 2(x − ln(1 + x)) with x = J − 1 = tr H + q.
     #[inline(always)]
     fn energy(&self, h: &SMatrix<T, D, D>) -> T {
-        // tr FᵀF − D = 2 tr H + H:H keeps small strains.
-        let excess = h.trace() * T::of(2.0) + double_dot(h, h);
-        let ln_j = determinant(&(h + SMatrix::identity())).ln();
-        let (lambda, mu) = (T::of(self.lambda), T::of(self.mu));
-        T::of(0.5) * mu * excess - mu * ln_j + T::of(0.5) * lambda * ln_j * ln_j
+        let (square, x, _) = Self::volume_change(h);
+        let ln_j = x.ln_1p();
+        // x − ln(1 + x), of second order: its series where the difference would lose digits.
+        let mut series = T::zero();
+        for k in (2..10).rev() {
+            series = T::of(if k % 2 == 0 { 1.0 } else { -1.0 } / f64::from(k)) + x * series;
+        }
+        let rest = if x.abs() < T::of(0.01) { x * x * series } else { x - ln_j };
+        let (half, lambda, mu) = (T::of(0.5), T::of(self.lambda), T::of(self.mu));
+        mu * (half * double_dot(h, h) - square + rest) + half * lambda * ln_j * ln_j
     }
 }
 

@@ -5,6 +5,12 @@
 //! make one modulus differ by a thousandth.
 
 use nalgebra::{Complex, Matrix2, SMatrix, SVector, Vector2};
+use pd_core::region::Cuboid;
+use pd_core::statics::Solved;
+use pd_core::{
+    Body, DamagePolicy, Grid, Horizon, Lattice, Loads, Material, NodeSet, Quadrature, Real, Result,
+    Statics,
+};
 use pd_models::{Stiffness, Stroh};
 
 /// A plate with its remote stress.
@@ -63,4 +69,85 @@ impl InfinitePlate {
             Vector2::new(i * s[(0, 0)] - s[(0, 1)], i * s[(0, 1)] - s[(1, 1)]) * Complex::from(r);
         self.uniform(x) + self.disturbance(x, inverse, load)
     }
+}
+
+/// A square cut out of the infinite plate, with the exact displacement prescribed in a collar of two
+/// horizons and two cells outside.
+#[derive(Debug, Clone, Copy)]
+pub struct Square {
+    /// Half the edge inside the collar, in metres.
+    pub half: f64,
+    /// Spacing in metres.
+    pub dx: f64,
+    /// Horizon over spacing.
+    pub m: f64,
+    /// Weights of the cells that the horizon cuts.
+    pub quadrature: Quadrature,
+}
+
+/// The body of a [`Square`].
+pub type Plate<T, M, P> = Body<T, 2, Lattice<T, 2>, M, P>;
+
+impl Square {
+    /// Solves the square without what `keep` drops, with `exact` prescribed outside.
+    ///
+    /// # Errors
+    /// What the body or the solver refuses.
+    pub fn solve<T: Real, M: Material<T, 2>, P: DamagePolicy<T, 2, M>>(
+        &self,
+        (material, policy): (M, P),
+        statics: Statics,
+        keep: impl Fn(&SVector<f64, 2>) -> bool,
+        exact: impl Fn(&SVector<f64, 2>) -> SVector<f64, 2>,
+    ) -> Result<(Plate<T, M, P>, Solved)> {
+        let collar = 2.0 * (self.m + 1.0) * self.dx;
+        let shape = Cuboid::centred([2.0 * (self.half + collar); 2])?;
+        let grid = Grid::new(&shape, self.dx)?.retain(keep)?;
+        let family = Lattice::<T, 2>::new(&grid, Horizon::Cells(self.m), self.quadrature)?;
+        let mut body = Body::new(family, material, policy)?;
+        let mut loads = Loads::new();
+        for node in grid.select(|x| x.amax() > self.half).iter() {
+            let one = NodeSet::from_nodes([node], grid.len())?;
+            let u = exact(&grid.position(node));
+            loads = loads.displacement(&one, 0, u[0]).displacement(&one, 1, u[1]);
+        }
+        let solved = statics.solve(&mut body, loads)?;
+        Ok((body, solved))
+    }
+    /// Errors of the displacements inside over the largest displacement, and where.
+    pub fn errors(
+        &self,
+        grid: &Grid<2>,
+        u: impl Fn(usize) -> SVector<f64, 2>,
+        exact: impl Fn(&SVector<f64, 2>) -> SVector<f64, 2>,
+    ) -> Vec<(SVector<f64, 2>, f64)> {
+        let size = grid.positions().map(|x| exact(&x).norm()).fold(0.0, f64::max);
+        let apart =
+            grid.positions().enumerate().map(|(i, x)| (x, (u(i) - exact(&x)).norm() / size));
+        apart.filter(|(x, _)| x.amax() < self.half).collect()
+    }
+}
+
+/// Hoop stress in Pa at an angle on a hole of this radius about the origin, by a quadratic fit to the
+/// displacements within `window`.
+pub fn hoop(
+    (grid, u): (&Grid<2>, impl Fn(usize) -> SVector<f64, 2>),
+    stiffness: &Stiffness<2>,
+    radius: f64,
+    degrees: f64,
+    window: f64,
+) -> f64 {
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    let edge = SVector::from([cosine, sine]) * radius;
+    let (mut normal, mut right) = (SMatrix::<f64, 6, 6>::zeros(), SMatrix::<f64, 6, 2>::zeros());
+    for node in grid.select(|x| (x - edge).norm() < window).iter() {
+        let d = (grid.position(node) - edge) / window;
+        let row = SVector::<f64, 6>::from([1.0, d.x, d.y, d.x * d.x, d.x * d.y, d.y * d.y]);
+        normal += row * row.transpose();
+        right += row * u(node).transpose();
+    }
+    let fit = normal.try_inverse().map_or(SMatrix::zeros(), |inverse| inverse * right);
+    let h = SMatrix::<f64, 2, 2>::from_fn(|i, j| fit[(1 + j, i)] / window);
+    let t = SVector::from([-sine, cosine]);
+    t.dot(&(stiffness.contract(&((h + h.transpose()) * 0.5)) * t))
 }

@@ -1,0 +1,64 @@
+//! AVX2 and AVX-512 give the same bits, in every scene of the benches.
+#[path = "../benches/scenes.rs"]
+#[allow(dead_code)]
+mod scenes;
+
+use peridynamics::prelude::*;
+use std::process::Command;
+
+/// Prints what a step leaves in every scene, as one number each.
+struct Bits;
+
+impl scenes::Visit for Bits {
+    fn scene<T, const D: usize, F, M, P>(
+        &mut self,
+        name: &str,
+        _: f64,
+        body: impl FnOnce() -> Result<Body<T, D, F, M, P>>,
+    ) where
+        T: Real,
+        F: Family<T, D>,
+        M: Material<T, D>,
+        P: DamagePolicy<T, D, M>,
+    {
+        let mut body = body().expect("body");
+        scenes::wave(&mut body);
+        body.evaluate_and_break(1, &mut ()).expect("step");
+        let hash = body.force().as_slice().iter().fold(0_u64, |hash, x| {
+            (hash.rotate_left(5) ^ x.to_f64().to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        });
+        println!("bits {name}, {}: {hash:016x}", T::NAME);
+    }
+}
+
+#[test]
+#[ignore = "what the other test runs"]
+fn print_bits() {
+    scenes::all::<f64>([21, 11], &mut Bits);
+    scenes::all::<f32>([21, 11], &mut Bits);
+}
+
+/// The processor that valgrind stands for has AVX2 and FMA, no AVX-512: the same program takes its
+/// other version there. Debug builds have no AVX-512 version, so this needs
+/// `cargo test --release --test instruction_sets -- --ignored`.
+#[cfg(target_arch = "x86_64")]
+#[test]
+#[ignore = "needs valgrind, a processor with AVX-512 and a release build"]
+fn avx2_and_avx512_give_the_same_bits() {
+    assert!(cfg!(not(debug_assertions)), "a release build: others have no AVX-512 version");
+    assert!(is_x86_feature_detected!("avx512vl"), "a processor with AVX-512");
+    let program = std::env::current_exe().expect("this program");
+    let bits = |mut command: Command| -> Vec<String> {
+        command.args(["--ignored", "--exact", "print_bits", "--nocapture", "--test-threads=1"]);
+        let output = command.output().expect("valgrind is installed");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let text = String::from_utf8_lossy(&output.stdout);
+        text.lines().filter_map(|l| l.split_once("bits ")).map(|l| l.1.to_owned()).collect()
+    };
+    let wide = bits(Command::new(&program));
+    let mut narrow = Command::new("valgrind");
+    narrow.args(["--tool=none", "--quiet"]).arg(&program);
+    let narrow = bits(narrow);
+    assert!(wide.len() >= 2 * 17, "{} scenes", wide.len());
+    assert_eq!(wide, narrow);
+}
