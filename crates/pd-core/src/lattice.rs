@@ -25,6 +25,11 @@ use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 /// Blocks that one task works on: fixed, so that nothing depends on the number of threads.
 const CHUNK: usize = 64;
 
+/// Bytes after which the first-level cache begins anew, and where in them each next plane begins:
+/// a whole number of lines, about (3 − √5)/2 of them, whose multiples are spread evenly.
+const PAGE: usize = 4096;
+const PLANE_IN_PAGE: usize = 26 * 64;
+
 /// Most sites that a kernel takes together.
 const WIDEST: usize = 2 * LANES;
 /// Sites before the first node, one block: a neighbour before the arrays is then before every lane of
@@ -187,7 +192,12 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             strides[d] = if d == 1 { row.next_multiple_of(T::WIDTH) } else { row };
         }
         let inner: usize = (0..D).map(|d| strides[d] * (cells[d] - 1)).sum::<usize>() + 1;
-        Layout { reaches, strides, sites: (LEAD + inner).next_multiple_of(WIDEST) }
+        let sites = (LEAD + inner).next_multiple_of(WIDEST);
+        // Padded so that the planes of the node arrays begin all over a page: numbers at the same
+        // place of many pages, as those of one node would be, push each other out of the cache.
+        let page = PAGE / size_of::<T>();
+        let sites = sites + (page + PLANE_IN_PAGE / size_of::<T>() - sites % page) % page;
+        Layout { reaches, strides, sites }
     }
     /// Number of sites of a lattice over a box of so many cells with equal edges, for δ = `m` Δx:
     /// what its node arrays will hold, before there is one.
