@@ -1,6 +1,6 @@
 //! A neo-Hookean body keeps its digits at small strains: energy and stress are those of linear
 //! elasticity to the order of the strain, in `f32` too. (W and P were differences of numbers of order
-//! one: in `f32` the energy at a strain of 10⁻⁴ was wrong by as much as itself.)
+//! one: in `f32` the energy was wrong by a fifth at a strain of 10⁻⁴, by 36 times itself at 10⁻⁵.)
 use peridynamics::models::Hyperelastic;
 use peridynamics::prelude::*;
 

@@ -20,13 +20,19 @@ fn clapeyron<const D: usize>(points: &Points<D>, body: &mut dyn Specimen<D>) -> 
 }
 
 /// All specimens give the right energy, or a typed error: returns how many gave an error.
-fn pulled<const D: usize>(what: &str, points: &Points<D>, list: Vec<Named<D>>) -> usize {
+fn pulled<const D: usize>(
+    what: &str,
+    condition: f64,
+    points: &Points<D>,
+    list: Vec<Named<D>>,
+) -> usize {
     let mut refused = 0;
     for (name, mut body) in existing(list) {
         match clapeyron(points, &mut *body) {
             // The stiffness of laws that are not linear comes from differences.
             Ok(error) => {
-                let limit = if body.is_linear() { 1e-6 } else { 1e-2 };
+                // The solver's residual of 10⁻¹⁰ is an error larger by the condition number.
+                let limit = if body.is_linear() { 1e-6 } else { 1e-2 } + 1e-11 * condition;
                 assert!(error.abs() < limit, "{what}, {name}: energy off by {error:e}");
             }
             Err(error) => {
@@ -49,13 +55,13 @@ fn moduli_a_million_apart() {
         recipe.stiffness = Stiffness::<2>::lamina(&ply).expect("ply").rotated(0.4);
         let what = format!("E1/E2 = {ratio:e}");
         // The polynomial micromoduli are not definite for such plies; all others are solved.
-        assert_eq!(pulled(&what, &recipe.points, recipe.specimens::<f64>()), 1);
+        assert_eq!(pulled(&what, ratio, &recipe.points, recipe.specimens::<f64>()), 1);
         let mut recipe = block();
         let solid =
             TransverselyIsotropic { e1: 1e11, e2: 1e11 / ratio, g12: 5e9, nu12: 0.3, nu23: 0.4 };
         let solid = Stiffness::<3>::transversely_isotropic(&solid).expect("solid");
         recipe.stiffness = solid.rotated_about_z(0.4);
-        assert_eq!(pulled(&what, &recipe.points, recipe.specimens::<f64>()), 1);
+        assert_eq!(pulled(&what, ratio, &recipe.points, recipe.specimens::<f64>()), 1);
     }
 }
 
@@ -66,8 +72,8 @@ fn nearly_incompressible_and_auxetic() {
         let what = format!("ν = {nu}");
         let (mut flat, mut deep) = (plate(), block());
         (flat.moduli, deep.moduli) = (moduli, moduli);
-        let refused = pulled(&what, &flat.points, flat.specimens::<f64>())
-            + pulled(&what, &deep.points, deep.specimens::<f64>());
+        let refused = pulled(&what, 1e4, &flat.points, flat.specimens::<f64>())
+            + pulled(&what, 1e4, &deep.points, deep.specimens::<f64>());
         println!("{what}: {refused} refused");
         assert!(refused <= 3, "{what}: {refused}");
     }
@@ -106,7 +112,7 @@ proptest! {
     #[test]
     fn any_stiffness_of_condition_1e10(c in plane_stiffnesses(1e11, 1e10)) {
         let recipe = Recipe { stiffness: c, ..plate() };
-        pulled("condition 1e10", &recipe.points, recipe.specimens::<f64>());
+        pulled("condition 1e10", 1e10, &recipe.points, recipe.specimens::<f64>());
         // ½ε:C:ε is itself a difference that leaves six digits.
         exact_energy(&c, &softest_2(&c), recipe.specimens::<f64>(), 1e-3);
     }
@@ -114,7 +120,7 @@ proptest! {
     #[test]
     fn any_stiffness_in_space(c in solid_stiffnesses(1e11, 1e6)) {
         let recipe = Recipe { stiffness: c, ..block() };
-        pulled("condition 1e6", &recipe.points, recipe.specimens::<f64>());
+        pulled("condition 1e6", 1e6, &recipe.points, recipe.specimens::<f64>());
         let strain = SMatrix::<f64, 3, 3>::new(1.0, 0.2, -0.3, 0.2, -0.4, 0.1, -0.3, 0.1, 0.6) * 1e-14;
         exact_energy(&c, &strain, recipe.specimens::<f64>(), 1e-9);
     }
