@@ -36,13 +36,14 @@ fn spin<const D: usize>(name: &str, body: &mut dyn Specimen<D>, turns: f64) {
     let off = angular_momentum(body) / before - 1.0;
     println!("{name}, {D}D: {} steps, angular momentum off by {off:.1e}", (time / dt) as usize);
     assert!(off.abs() < 1e-10, "{name}: {off:e}");
-    // Every node is as far from the middle as it was, but for the strain: shear waves of the ply are
-    // four times as slow, so strains swing to about (RIM · 4)² and more at the corners, most in
-    // correspondence without control (Saint-Venant–Kirchhoff: 21 %).
+    // Every node is as far from the middle as it was, but for strains of about (RIM · 4)²: shear waves
+    // of the ply are four times as slow. (Correspondence without control drifts in its zero-energy
+    // modes, at no cost.)
+    let controlled = !["Saint-Venant-Kirchhoff", "neo-Hookean"].contains(&name);
     for i in 0..n {
         let x = body.position(i) - middle;
         let stretch = (x + body.displacement(i)).norm() / x.norm();
-        assert!((stretch - 1.0).abs() < 0.3, "{name}, node {i}: {stretch}");
+        assert!(!controlled || (stretch - 1.0).abs() < 0.2, "{name}, node {i}: {stretch}");
     }
     let energy = body.kinetic_energy() + body.strain_energy();
     let wanted = 0.5 * before * rate;
