@@ -47,12 +47,6 @@ fn print_bits() {
 #[test]
 #[ignore = "needs valgrind and a processor with AVX-512"]
 fn avx2_and_avx512_give_the_same_bits() {
-<<<<<<< HEAD
-=======
-    if cfg!(debug_assertions) {
-        panic!("needs a release build: others have no AVX-512 version");
-    }
->>>>>>> perf
     assert!(is_x86_feature_detected!("avx512vl"), "a processor with AVX-512");
     let program = std::env::current_exe().expect("this program");
     let bits = |mut command: Command| -> Vec<String> {
