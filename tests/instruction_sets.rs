@@ -54,7 +54,7 @@ fn avx2_and_avx512_give_the_same_bits() {
         let output = command.output().expect("valgrind is installed");
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let text = String::from_utf8_lossy(&output.stdout);
-        text.lines().filter_map(|l| l.split_once("bits ")).map(|l| l.1.to_owned()).collect()
+        text.lines().filter_map(|l| l.rsplit_once("bits ")).map(|l| l.1.to_owned()).collect()
     };
     let wide = bits(Command::new(&program));
     let mut narrow = Command::new("valgrind");
