@@ -90,7 +90,7 @@ fn long_cells() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(cases(4))]
 
     #[test]
     fn off_their_places(points in clouds::<2>(DX, 0.4, 1.0)) {

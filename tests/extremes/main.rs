@@ -15,6 +15,7 @@ use pd_testkit::generate::cloud;
 use pd_testkit::specimen::{Named, Recipe, Specimen, Tear};
 use peridynamics::models::elasticity::catalogue::GLASS_EPOXY;
 use peridynamics::prelude::*;
+use proptest::test_runner::{Config as ProptestConfig, RngSeed};
 
 const DX: f64 = 1e-3;
 /// Speed of waves along the plates and blocks below, about, in m/s.
@@ -85,6 +86,12 @@ fn all<const D: usize>(list: Vec<Named<D>>) -> Vec<(&'static str, Box<dyn Specim
     let found = existing(list);
     assert_eq!(found.len(), count, "a material was refused");
     found
+}
+
+/// This many cases at random, the same in every run.
+fn cases(cases: u32) -> ProptestConfig {
+    let rng_seed = RngSeed::Fixed(17);
+    ProptestConfig { cases, rng_seed, failure_persistence: None, ..ProptestConfig::default() }
 }
 
 /// Names of materials with exactly the stiffness C at every node.

@@ -111,7 +111,7 @@ fn softest_2(c: &Stiffness<2>) -> SMatrix<f64, 2, 2> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 6, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(cases(6))]
 
     #[test]
     fn any_stiffness_of_condition_1e10(c in plane_stiffnesses(1e11, 1e10)) {

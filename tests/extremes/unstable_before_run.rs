@@ -11,7 +11,7 @@ fn stability(material: &impl Material<f64, 2>) -> Stability<2> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 8, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(cases(8))]
 
     /// Of whatever stiffness: the positive split and controlled correspondence amplify no wave,
     /// correspondence alone has waves that cost nothing, and is not taken for unstable.
