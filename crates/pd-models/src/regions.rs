@@ -35,12 +35,32 @@ impl<M, const R: usize> Regions<M, R> {
         // Checked when the body is made: `density` is asked for every node first.
         self.region.get(node).map_or(0, |&r| usize::from(r))
     }
-    /// The node's region, kept with its constants as a scalar.
-    #[inline(always)]
-    fn material<T: Real>(&self, tag: T) -> (usize, &M) {
-        let r = tag.to_f64() as usize;
-        (r, &self.materials[r])
-    }
+}
+
+/// What the material of the node's region gives, the region being kept with the node's constants as
+/// a scalar. All materials are asked and one answer is taken: a blend, where a choice before would
+/// keep the loop over nodes from becoming vector code, as would a closure that is not inlined.
+macro_rules! of_region {
+    ($regions:expr, $tag:expr, |$r:pat_param, $material:ident| $answer:expr) => {{
+        let ask = |r: usize| (r, &$regions.materials[r]);
+        let ($r, $material) = ask(0);
+        let mut found = $answer;
+        for r in 1..R {
+            let ($r, $material) = ask(r);
+            found = Record::<T>::select($tag == T::of(r as f64), $answer, found);
+        }
+        found
+    }};
+}
+
+/// The end of a bond as the material of region `r` sees it.
+#[inline(always)]
+fn seen_by<'a, T, K, N, S, const R: usize>(
+    end: End<'a, T, [K; R], (T, N), S>,
+    r: usize,
+) -> End<'a, T, K, N, S> {
+    let End { bond, node, state, volume } = end;
+    End { bond: &bond[r], node: &node.1, state, volume }
 }
 
 impl<T, const D: usize, M, const R: usize> Material<T, D> for Regions<M, R>
@@ -85,9 +105,11 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, Self::BondConst, Self::NodeConst, ()>,
     ) {
-        let (r, material) = self.material(end.node.0);
-        let End { state, volume, .. } = end;
-        material.add_bond(sum, bond, End { bond: &end.bond[r], node: &end.node.1, state, volume });
+        *sum = of_region!(self, end.node.0, |r, material| {
+            let mut sum = *sum;
+            material.add_bond(&mut sum, bond, seen_by(end, r));
+            sum
+        });
     }
     #[inline(always)]
     fn node_state(
@@ -97,7 +119,7 @@ where
         family: &M::FamilyConst,
         previous: &M::NodeState,
     ) -> M::NodeState {
-        self.material(*tag).1.node_state(sum, constants, family, previous)
+        of_region!(self, *tag, |_, m| m.node_state(sum, constants, family, previous))
     }
     #[inline(always)]
     fn force_state(
@@ -105,9 +127,7 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, Self::BondConst, Self::NodeConst, M::NodeState>,
     ) -> SVector<T, D> {
-        let (r, material) = self.material(end.node.0);
-        let End { state, volume, .. } = end;
-        material.force_state(bond, End { bond: &end.bond[r], node: &end.node.1, state, volume })
+        of_region!(self, end.node.0, |r, material| material.force_state(bond, seen_by(end, r)))
     }
     #[inline(always)]
     fn detached(&self, family: &M::FamilyConst) -> bool {
@@ -125,7 +145,7 @@ where
 {
     #[inline(always)]
     fn stress(&self, (tag, constants): &Self::NodeConst, state: &M::NodeState) -> SMatrix<T, D, D> {
-        self.material(*tag).1.stress(constants, state)
+        of_region!(self, *tag, |_, material| material.stress(constants, state))
     }
     #[inline(always)]
     fn bond_stress(
@@ -134,10 +154,7 @@ where
         end: End<'_, T, Self::BondConst, Self::NodeConst, M::NodeState>,
         stress: &SMatrix<T, D, D>,
     ) -> SMatrix<T, D, D> {
-        let (r, material) = self.material(end.node.0);
-        let End { state, volume, .. } = end;
-        let own = End { bond: &end.bond[r], node: &end.node.1, state, volume };
-        material.bond_stress(bond, own, stress)
+        of_region!(self, end.node.0, |r, m| m.bond_stress(bond, seen_by(end, r), stress))
     }
 }
 
@@ -148,7 +165,7 @@ where
 {
     #[inline(always)]
     fn node_energy(&self, (tag, constants): &Self::NodeConst, state: &M::NodeState) -> T {
-        self.material(*tag).1.node_energy(constants, state)
+        of_region!(self, *tag, |_, material| material.node_energy(constants, state))
     }
     #[inline(always)]
     fn bond_energy(
@@ -156,9 +173,7 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, Self::BondConst, Self::NodeConst, M::NodeState>,
     ) -> T {
-        let (r, material) = self.material(end.node.0);
-        let End { state, volume, .. } = end;
-        material.bond_energy(bond, End { bond: &end.bond[r], node: &end.node.1, state, volume })
+        of_region!(self, end.node.0, |r, material| material.bond_energy(bond, seen_by(end, r)))
     }
 }
 
@@ -173,9 +188,7 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, Self::BondConst, Self::NodeConst, M::NodeState>,
     ) -> (T, T) {
-        let (r, material) = self.material(end.node.0);
-        let End { state, volume, .. } = end;
-        material.energy_parts(bond, End { bond: &end.bond[r], node: &end.node.1, state, volume })
+        of_region!(self, end.node.0, |r, material| material.energy_parts(bond, seen_by(end, r)))
     }
 }
 
