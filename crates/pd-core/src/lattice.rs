@@ -192,7 +192,9 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             strides[d] = if d == 1 { row.next_multiple_of(T::WIDTH) } else { row };
         }
         let inner: usize = (0..D).map(|d| strides[d] * (cells[d] - 1)).sum::<usize>() + 1;
-        let sites = (LEAD + inner).next_multiple_of(WIDEST);
+        // One block behind the last node: a block that starts at any node must be there whole, for it
+        // would be read from further on the left otherwise.
+        let sites = (LEAD + inner + WIDEST).next_multiple_of(WIDEST);
         // Padded so that the planes of the node arrays begin all over a page: numbers at the same
         // place of many pages, as those of one node would be, push each other out of the cache.
         let page = PAGE / size_of::<T>();
