@@ -11,19 +11,19 @@
 //! horizon and precision; its critical time step (free surfaces and all) sets the number of steps,
 //! and the sizes of its arrays the memory.
 //!
-//! ```
+//! ```no_run
 //! use peridynamics::advise::Advisor;
-//! use peridynamics::models::elasticity::catalogue::{GLASS_EPOXY};
+//! use peridynamics::models::elasticity::catalogue::GLASS_EPOXY;
 //! use peridynamics::prelude::*;
 //! # fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
 //! let (ply, density) = (Stiffness::<2>::lamina(&GLASS_EPOXY)?, 1800.0);
 //! let omega = InfluenceFunction::Gaussian;
 //! let plate = Cuboid::centred([0.05, 0.03])?;
-//! let mut advisor = Advisor::new(&plate, (&ply, density), 10e-3, 10e-6, 0.05)?;
 //! let split = Ordinary::linearised(PositiveSplit::plane(&ply, density, omega)?);
-//! advisor.consider("positive split", &split)?;
 //! let wan = Correspondence::new(LinearElastic(ply), density, omega)?
 //!     .with_control(WanControl::new(&ply, 1.0)?);
+//! let mut advisor = Advisor::new(&plate, (&ply, density), 10e-3, 10e-6, 0.05)?;
+//! advisor.consider("positive split", &split)?;
 //! advisor.consider("correspondence with Wan's control", &wan)?;
 //! let advice = advisor.advise()?;
 //! println!("{advice}");
