@@ -270,6 +270,9 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
         let [step, refreshed, accounts, known] = state.counts("run")?;
         let clock: Vec<f64> = state.numbers("clock", 2)?;
         let (time, dt) = (clock[0], clock[1]);
+        if dt <= 0.0 {
+            return Err(unlike("clock", format!("has Δt = {dt:e} s, which no run takes")));
+        }
         if let TimeStep::Fixed(given) | TimeStep::Unchecked(given) = self.rule
             && given != dt
         {
@@ -297,10 +300,9 @@ impl<'a, T: Real, const D: usize, B: Dynamics<T, D>, I: Integrator<T, D>> Run<'a
         let kept = self.body.force().clone();
         self.body.evaluate()?;
         self.loads.add_forces(self.body, time);
-        let size = |f: &[T]| f.iter().fold(0.0, |m, x| x.to_f64().abs().max(m));
+        let largest = kept.as_slice().iter().fold(0.0, |m, x| x.to_f64().abs().max(m));
         let pairs = kept.as_slice().iter().zip(self.body.force().as_slice());
         let apart = pairs.fold(0.0, |m, (a, b)| (*a - *b).to_f64().abs().max(m));
-        let largest = size(kept.as_slice());
         if apart > T::EPSILON.sqrt() * largest {
             let reason = format!(
                 "are not those of this material and these loads: they differ by {:.1e} of the \
