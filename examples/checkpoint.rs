@@ -17,17 +17,17 @@ use std::path::Path;
 type Plate = Body<f64, 2, Lattice<f64, 2>, Ordinary<Pmb>, Breaking<CriticalStretch, 2>>;
 
 fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
-    let across = Effort::from_arguments().choose(60.0, 200.0, 400.0);
+    let across = Effort::from_arguments().choose(60.0, 400.0, 800.0);
     let (size, glass) = (0.1, Isotropic::from_young_poisson(65e9, 1.0 / 3.0)?);
     let grid = Grid::new(&Cuboid::centred([size, size])?, size / across)?;
     let constant = InfluenceFunction::Constant;
     let law = Pmb::plane(&glass, PlaneMode::PlaneStress, 2235.0, constant)?;
-    let policy = Breaking::new(CriticalStretch::new(1e-3)?)
+    let policy = Breaking::new(CriticalStretch::new(2e-3)?)
         .precracked(Segment::new([-0.51 * size, 0.0], [-0.25 * size, 0.0])?);
     let family = Lattice::<f64, 2>::new(&grid, Horizon::Cells(3.015), Quadrature::None)?;
     let mut body = Body::new(family, Ordinary::new(law), policy)?;
     let (low, high) = (-0.48 * size, 0.48 * size);
-    let loads = Loads::new().velocity(&grid.select(|x| x[1] < low), 1, -2.0).velocity(
+    let loads = Loads::new().velocity(&grid.select(|x| x[1] < low), 1, -0.5).velocity(
         &grid.select(|x| x[1] > high),
         1,
         2.0,
@@ -53,7 +53,10 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     );
     run.observe(200, FieldOutput::resume(folder, "plate", snapshot::<f64, 2, _, _, _>, last)?);
     checkpoint.keep(&mut run, 200)?;
-    run.until(80e-6)?;
+    if let Err(error) = run.until(150e-6) {
+        // In words: what happened, and from where a run goes on.
+        return Err(error.to_string().into());
+    }
     drop(run);
     checkpoint.remove()?;
     println!("{}; pictures and histories are in {}", Margin::of(&body), folder.display());
