@@ -17,7 +17,8 @@ use std::path::Path;
 type Plate = Body<f64, 2, Lattice<f64, 2>, Ordinary<Pmb>, Breaking<CriticalStretch, 2>>;
 
 fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
-    let across = Effort::from_arguments().choose(60.0, 400.0, 800.0);
+    let effort = Effort::from_arguments();
+    let across = effort.choose(60.0, 400.0, 800.0);
     let (size, glass) = (0.1, Isotropic::from_young_poisson(65e9, 1.0 / 3.0)?);
     let grid = Grid::new(&Cuboid::centred([size, size])?, size / across)?;
     let constant = InfluenceFunction::Constant;
@@ -33,7 +34,9 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
         2.0,
     );
 
-    let folder = Path::new("out/checkpoint");
+    // A state is that of its own grid.
+    let folder = effort.choose("out/checkpoint_short", "out/checkpoint", "out/checkpoint_full");
+    let folder = Path::new(folder);
     let checkpoint = Checkpoint::new(folder.join("plate.state"));
     let mut run = Run::new(&mut body, loads, TimeStep::Safety(0.8))?;
     let last = checkpoint.resume(&mut run)?;
