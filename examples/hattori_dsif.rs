@@ -18,11 +18,9 @@
 //! at 100². `--full` takes Table 1, 200² to 500² with m = 1 to 5 (some ten minutes). Pictures go to
 //! `out/hattori_dsif/`.
 mod common;
-#[path = "common/dsif.rs"]
-mod dsif;
 
 use common::{Effort, Outcome};
-use dsif::{at_times, curve, errors, opening};
+use pd_testkit::dsif::{at_times, curve, errors, opening};
 use pd_testkit::fem::table;
 use peridynamics::io::LinePlot;
 use peridynamics::models::elasticity::catalogue::{GRAPHITE_EPOXY, GRAPHITE_EPOXY_DENSITY};

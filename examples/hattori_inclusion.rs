@@ -16,11 +16,9 @@
 //! as those of the bodies are. Pictures and the table go to `out/hattori_inclusion/`; `--full` takes
 //! the paper's 400 × 800 nodes.
 mod common;
-#[path = "common/dsif.rs"]
-mod dsif;
 
 use common::{Effort, Outcome};
-use dsif::{at_times, curve, errors, opening};
+use pd_testkit::dsif::{at_times, curve, errors, opening};
 use pd_testkit::quads::Quads;
 use peridynamics::io::LinePlot;
 use peridynamics::models::elasticity::{Intensity, OpeningFit, catalogue};

@@ -3,7 +3,8 @@
 use super::{Scene, influence, quadrature};
 use crate::common::{Effort, Outcome};
 use pd_testkit::clock::seconds;
-use pd_testkit::hattori61::{EdgeCrack, errors};
+use pd_testkit::dsif::errors;
+use pd_testkit::hattori61::EdgeCrack;
 use peridynamics::models::NoControl;
 use peridynamics::models::elasticity::catalogue::GRAPHITE_EPOXY_DENSITY as DENSITY;
 use peridynamics::prelude::*;

@@ -125,8 +125,7 @@ impl Ledger {
         if columns.is_empty() {
             return Err(Error::Empty { path, what: "column" });
         }
-        let names: Vec<String> = columns.iter().map(|name| quoted(name)).collect();
-        let head = format!("# {}\n{}\n", in_one_line(title), names.join(","));
+        let head = format!("# {}\n{}", in_one_line(title), head(columns));
         let open = || {
             if let Some(folder) = path.parent() {
                 std::fs::create_dir_all(folder)?;

@@ -3,13 +3,14 @@
 //! v_y = 250 y/s at the start, free edges; K from the opening at one distance behind the tip by the
 //! Stroh matrices (Eq. 33).
 
+use crate::dsif::opening;
 use crate::fem::table;
 use nalgebra::SVector;
 use pd_core::crack::Segment;
 use pd_core::region::Cuboid;
 use pd_core::{
-    Body, Dynamics, Flow, Grid, Horizon, Integrator, Lattice, Loads, Material, Precracked,
-    Quadrature, Real, Result, Run, TimeStep, View,
+    Body, Flow, Grid, Horizon, Integrator, Lattice, Loads, Material, Precracked, Quadrature, Real,
+    Result, Run, TimeStep, View,
 };
 use pd_models::elasticity::catalogue::GRAPHITE_EPOXY;
 use pd_models::{Intensity, Stiffness, Stroh};
@@ -87,19 +88,6 @@ impl EdgeCrack {
         Ok(body)
     }
 
-    /// Opening between the rows next to the crack, interpolated between their nodes.
-    fn opening<T: Real, M: Material<T, 2>>(body: &Cracked<T, M>, behind: f64) -> SVector<f64, 2> {
-        let grid = body.family().grid();
-        let row = grid.cells()[1] / 2;
-        let place = (CRACK - behind) / body.unit() - 0.5;
-        let (low, part) = (place.floor() as usize, place - place.floor());
-        let u = |column: usize, row: usize| {
-            body.displacement(grid.node([column, row]).expect("a full grid"))
-        };
-        let at = |row: usize| u(low, row) * (1.0 - part) + u(low + 1, row) * part;
-        at(row) - at(row - 1)
-    }
-
     /// Runs the body to [`END`] and reads K.
     ///
     /// # Errors
@@ -113,7 +101,7 @@ impl EdgeCrack {
         let mut samples: Vec<(f64, [SVector<f64, 2>; 2])> = Vec::new();
         let mut run = Run::with_integrator(body, Loads::new(), rule, integrator)?;
         run.observe(1, |view: &View<'_, Cracked<T, M>>| {
-            samples.push((view.time, BEHIND.map(|r| Self::opening(view.body, r))));
+            samples.push((view.time, BEHIND.map(|r| behind(view.body, r))));
             Ok(Flow::Continue)
         });
         run.until(END)?;
@@ -132,12 +120,7 @@ impl EdgeCrack {
     }
 }
 
-/// Eq. 38 for K_I and K_II.
-pub fn errors(got: &[Intensity], reference: &[Intensity]) -> (f64, f64) {
-    let norm = |pick: fn(&Intensity) -> f64| {
-        let pairs = got.iter().zip(reference);
-        let apart: f64 = pairs.map(|(a, b)| (pick(a) - pick(b)).powi(2)).sum();
-        (apart / reference.iter().map(|b| pick(b).powi(2)).sum::<f64>()).sqrt()
-    };
-    (norm(|k| k.i), norm(|k| k.ii))
+/// Opening at the distance `r` in metres behind the tip.
+fn behind<T: Real, M: Material<T, 2>>(body: &Cracked<T, M>, r: f64) -> SVector<f64, 2> {
+    opening(body.family().grid(), |node| body.displacement(node), CRACK - r)
 }

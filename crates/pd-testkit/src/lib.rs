@@ -1,6 +1,7 @@
 //! Problems with known solutions, for tests, benches and examples. Not published.
 pub mod beam;
 pub mod clock;
+pub mod dsif;
 pub mod fem;
 pub mod generate;
 pub mod graded_wave;

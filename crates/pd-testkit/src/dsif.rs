@@ -1,10 +1,13 @@
 //! Dynamic stress intensity of a crack along y = 0: what the studies of Hattori §6.1 and §6.3 share.
-#![allow(dead_code)]
 
-use peridynamics::models::elasticity::Intensity;
-use peridynamics::prelude::*;
+use nalgebra::SVector;
+use pd_core::Grid;
+use pd_models::Intensity;
 
 /// u(upper face) − u(lower face) at x: between the rows of nodes next to y = 0.
+///
+/// # Panics
+/// If there are no nodes there.
 pub fn opening(grid: &Grid<2>, u: impl Fn(usize) -> SVector<f64, 2>, x: f64) -> SVector<f64, 2> {
     let place = (SVector::from([x, 0.0]) - grid.origin()).component_div(grid.spacing());
     let (column, row) = (place[0].floor(), place[1].ceil() as usize);
