@@ -5,14 +5,14 @@ use crate::damage::{Check, DamagePolicy};
 use crate::family::{BondKernel, Family, Pair, Tally, Visit};
 use crate::field::Field;
 use crate::material::{Material, StrainEnergy, StressState};
+use crate::parallel::{axpy, map_pieces, sum_in_order, zip_weighted};
 use crate::record::Record;
 use crate::state::{StateReader, StateWriter, unlike};
 use crate::{Error, Real, Result};
 use nalgebra::{SMatrix, SVector};
-use rayon::prelude::*;
 
-/// Numbers that one task of an update works on.
-const CHUNK: usize = 8192;
+/// Nodes whose constants one task finds.
+const CHUNK: usize = 256;
 
 /// A body of nodes. Reads and writes SI units; inside, lengths are in units of Δx.
 ///
@@ -52,6 +52,28 @@ where
 enum InverseMass<T> {
     Uniform(T),
     PerSite(Vec<T>),
+}
+
+impl<T: Real> InverseMass<T> {
+    fn new<const D: usize>(
+        family: &impl Family<T, D>,
+        density: &dyn Fn(usize) -> f64,
+    ) -> Result<Self> {
+        let unit2 = family.unit().powi(2);
+        let inverse = |node: usize| -> Result<T> {
+            let rho = Error::positive("density ρ [kg/m³]", density(node))?;
+            Ok(T::of(1.0 / (rho * unit2)))
+        };
+        let first = inverse(0)?;
+        let mut per_site = vec![first; family.sites()];
+        let mut uniform = true;
+        for node in 1..family.nodes() {
+            let value = inverse(node)?;
+            uniform &= value == first;
+            per_site[family.site(node)] = value;
+        }
+        Ok(if uniform { Self::Uniform(first) } else { Self::PerSite(per_site) })
+    }
 }
 
 /// The strain pass: family sums into node states. It finds the largest t where the material looks at
@@ -191,8 +213,7 @@ where
         let mut reference_volume = None;
         if let Some(bits) = &mut bits {
             for crack in &cracks.surfaces {
-                let positions = (0..nodes).map(|node| family.position(node));
-                crate::crack::check_clear(crack.as_ref(), positions, family.unit())?;
+                check_clear_of(&family, crack.as_ref())?;
                 let cuts =
                     |a: usize, b: usize| crack.cuts(&family.position(a), &family.position(b));
                 family.cut(bits, &cuts);
@@ -209,21 +230,7 @@ where
                 criterion_const.set(family.site(node), policy.node_const(node, family.scale(node)));
             }
         }
-        let unit2 = family.unit().powi(2);
-        let inverse = |node: usize| -> Result<T> {
-            let rho = Error::positive("density ρ [kg/m³]", material.density(node))?;
-            Ok(T::of(1.0 / (rho * unit2)))
-        };
-        let first = inverse(0)?;
-        let mut per_site = vec![first; sites];
-        let mut uniform = true;
-        for node in 1..nodes {
-            let value = inverse(node)?;
-            uniform &= value == first;
-            per_site[family.site(node)] = value;
-        }
-        let inverse_mass =
-            if uniform { InverseMass::Uniform(first) } else { InverseMass::PerSite(per_site) };
+        let inverse_mass = InverseMass::new(&family, &|node| material.density(node))?;
 
         let mut body = Self {
             node_const: Field::zeros(sites),
@@ -271,27 +278,30 @@ where
         // break later: only for a material that follows damage.
         let live =
             if M::FOLLOWS_DAMAGE || policy.cracks().leave_family { bits.as_ref() } else { None };
-        let constants: Vec<Result<(M::NodeConst, M::FamilyConst)>> = (0..family.nodes())
-            .into_par_iter()
-            .map_init(Vec::new, |members, node| {
-                family.members(node, table, None, members);
-                if members.is_empty() {
-                    let position = family.position(node).iter().copied().collect();
-                    let horizon = family.scale(node).horizon * family.unit();
-                    return Err(Error::EmptyFamily { node, position, horizon });
-                }
-                if live.is_some() {
-                    family.members(node, table, live, members);
-                }
-                material.node_const(&Neighbourhood { node, scale: family.scale(node), members })
-            })
-            .collect();
-        // Collecting into one result in parallel would keep the error that came first in time.
-        let constants = constants.into_iter().collect::<Result<Vec<_>>>()?;
-        for (node, (value, own)) in constants.into_iter().enumerate() {
-            let site = self.family.site(node);
-            self.node_const.set(site, value);
-            self.family_const.set(site, own);
+        let of_node = |node, members: &mut Vec<_>| {
+            family.members(node, table, None, members);
+            if members.is_empty() {
+                let position = family.position(node).iter().copied().collect();
+                let horizon = family.scale(node).horizon * family.unit();
+                return Err(Error::EmptyFamily { node, position, horizon });
+            }
+            if live.is_some() {
+                family.members(node, table, live, members);
+            }
+            material.node_const(&Neighbourhood { node, scale: family.scale(node), members })
+        };
+        let pieces = map_pieces(family.nodes(), CHUNK, &|nodes| -> Result<Vec<_>> {
+            let mut members = Vec::new();
+            nodes.map(|node| of_node(node, &mut members)).collect()
+        });
+        let mut node = 0;
+        for piece in pieces {
+            for (value, own) in piece? {
+                let site = self.family.site(node);
+                self.node_const.set(site, value);
+                self.family_const.set(site, own);
+                node += 1;
+            }
         }
         Ok(())
     }
@@ -586,13 +596,20 @@ where
     pub fn cut(&mut self, crack: &dyn crate::crack::CrackSurface<D>) -> Result<usize> {
         let Self { family, bits, .. } = self;
         let bits = bits.as_mut().ok_or(Error::NoBits)?;
-        let positions = (0..family.nodes()).map(|node| family.position(node));
-        crate::crack::check_clear(crack, positions, family.unit())?;
+        check_clear_of(family, crack)?;
         let count = family.cut(bits, &|a, b| crack.cuts(&family.position(a), &family.position(b)));
         let lost = self.follow_damage()?;
         self.clear_marks();
         Ok(count + lost)
     }
+}
+
+fn check_clear_of<T: Real, const D: usize>(
+    family: &impl Family<T, D>,
+    crack: &dyn crate::crack::CrackSurface<D>,
+) -> Result<()> {
+    let positions = (0..family.nodes()).map(|node| family.position(node));
+    crate::crack::check_clear(crack, positions, family.unit())
 }
 
 /// Σ βV over the family of a node: all bonds, and the intact ones.
@@ -649,15 +666,6 @@ where
     pub fn stress(&self, node: usize) -> SMatrix<f64, D, D> {
         self.material.stress(&self.constants(node), &self.state(node)).map(Real::to_f64)
     }
-}
-
-/// Σ g(i) in fixed chunks, so that the sum does not depend on the number of threads.
-pub fn sum_in_order(len: usize, g: impl Fn(usize) -> f64 + Sync) -> f64 {
-    let chunks: Vec<f64> = (0..len.div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|c| (c * CHUNK..len.min((c + 1) * CHUNK)).map(&g).sum())
-        .collect();
-    chunks.iter().sum()
 }
 
 /// Bytes held by the parts of a body.
@@ -933,15 +941,6 @@ impl<B: ?Sized> BreakEvents<B> for () {
     fn after(&mut self, _: &B, _: Tally) {}
 }
 
-/// y += a x.
-pub(crate) fn axpy<T: Real>(y: &mut [T], a: T, x: &[T]) {
-    y.par_chunks_mut(CHUNK).zip(x.par_chunks(CHUNK)).for_each(|(y, x)| {
-        for (y, x) in y.iter_mut().zip(x) {
-            *y += a * *x;
-        }
-    });
-}
-
 impl<T, const D: usize, F, M, P> Dynamics<T, D> for Body<T, D, F, M, P>
 where
     T: Real,
@@ -1007,9 +1006,7 @@ where
                 axpy(self.v.as_mut_slice(), dt * *w, self.force.as_slice());
             }
             InverseMass::PerSite(w) => {
-                let sites = w.len();
-                let planes = self.v.as_mut_slice().par_chunks_mut(sites);
-                planes.zip(self.force.as_slice().par_chunks(sites)).for_each(|(v, f)| {
+                zip_weighted(self.v.as_mut_slice(), self.force.as_slice(), w, &|v, f, w| {
                     for ((v, f), w) in v.iter_mut().zip(f).zip(w) {
                         *v += dt * *w * *f;
                     }

@@ -7,6 +7,7 @@
 use crate::bond::{Arithmetic, Bond, Member, Scale};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
 use crate::field::{Field, Inputs};
+use crate::parallel::{map_pieces, sweep_pieces};
 use crate::points::Points;
 use crate::quadrature::Quadrature;
 use crate::record::Record;
@@ -440,27 +441,6 @@ where
     }
 }
 
-fn sweep_range<T, const D: usize, Kn, I, J>(
-    job: &Job<'_, T, D, Kn, I, J>,
-    nodes: Range<usize>,
-    out: <Kn::Out as Record<T>>::PlanesMut<'_>,
-) -> T
-where
-    T: Real,
-    Kn: BondKernel<T, D>,
-    I: Inputs<T, Value = Kn::Node>,
-    J: Inputs<T, Value = Kn::Own>,
-{
-    if nodes.len() <= CHUNK {
-        return sweep_chunk(job, nodes, out);
-    }
-    let mid = nodes.len() / 2;
-    let (low, high) = <Kn::Out as Record<T>>::split(out, mid);
-    let (a, b) = (nodes.start..nodes.start + mid, nodes.start + mid..nodes.end);
-    let (a, b) = rayon::join(|| sweep_range(job, a, low), || sweep_range(job, b, high));
-    if b > a { b } else { a }
-}
-
 impl<K> RowTable<K> {
     #[inline(always)]
     fn ends(&self, shape: usize) -> [&K; 2] {
@@ -519,9 +499,9 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         };
         let table = |end: usize| -> Vec<K> {
             if self.kind.is_empty() {
-                let rows = (0..self.nodes()).into_par_iter();
                 let bonds = |i| self.bonds_of(i).map(move |(_, j, shape)| of(shape, [i, j], end));
-                rows.flat_map_iter(bonds).collect()
+                let rows = |nodes: Range<usize>| nodes.flat_map(bonds).collect::<Vec<K>>();
+                map_pieces(self.nodes(), CHUNK, &rows).flatten().collect()
             } else {
                 let shapes = self.shapes.iter().zip(&self.samples);
                 shapes.map(|(shape, nodes)| of(shape, nodes.map(|n| n as usize), end)).collect()
@@ -658,7 +638,9 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     {
         let marked = visit == Visit::Marked;
         let job = Job { cloud: self, kernel, table, bits, marked, u, input, own };
-        sweep_range(&job, 0..self.nodes(), out.planes_mut())
+        sweep_pieces::<T, Kn::Out>(0..self.nodes(), (CHUNK, 1), out.planes_mut(), &|nodes, out| {
+            sweep_chunk(&job, nodes, out)
+        })
     }
 
     fn break_bonds<B, I>(
@@ -727,7 +709,7 @@ fn fuses() -> bool {
 
 /// Halves the rows until they are one chunk; their bytes and marks are split along.
 fn break_range(
-    one_node: &(impl Fn(usize, &mut [u8], &mut AtomicU8) -> Tally + Sync),
+    one_node: &(dyn Fn(usize, &mut [u8], &mut AtomicU8) -> Tally + Sync),
     first: usize,
     row: &[usize],
     bytes: &mut [u8],

@@ -8,6 +8,7 @@
 #![allow(unsafe_code)]
 
 use crate::Real;
+use crate::parallel::sweep_pieces;
 use crate::record::Record;
 use std::marker::PhantomData;
 
@@ -157,25 +158,12 @@ pub(crate) fn map_sites<T: Real, I: Inputs<T>, R: Record<T>>(
     out: &mut Field<T, R>,
     f: impl Fn(I::Value, R) -> R + Sync,
 ) {
-    fn range<T: Real, I: Inputs<T>, R: Record<T>>(
-        input: I,
-        sites: std::ops::Range<usize>,
-        mut out: R::PlanesMut<'_>,
-        f: &(impl Fn(I::Value, R) -> R + Sync),
-    ) {
-        if sites.len() > MAP_CHUNK {
-            let mid = sites.len() / 2;
-            let (low, high) = R::split(out, mid);
-            let (a, b) = (sites.start..sites.start + mid, sites.start + mid..sites.end);
-            rayon::join(|| range(input, a, low, f), || range(input, b, high, f));
-        } else {
-            let first = sites.start;
-            for site in sites {
-                let previous = R::read(&out, site - first);
-                f(input.load(site), previous).write(&mut out, site - first);
-            }
+    sweep_pieces::<T, R>(0..out.len(), (MAP_CHUNK, 1), out.planes_mut(), &|sites, mut out| {
+        let first = sites.start;
+        for site in sites {
+            let previous = R::read(&out, site - first);
+            f(input.load(site), previous).write(&mut out, site - first);
         }
-    }
-    let len = out.len();
-    range(input, 0..len, out.planes_mut(), &f);
+        T::zero()
+    });
 }

@@ -12,6 +12,7 @@ use crate::bond::{Arithmetic, Bond, Member, Scale};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
 use crate::field::{Field, Inputs, Planes};
 use crate::grid::Grid;
+use crate::parallel::{break_pieces, sweep_pieces};
 use crate::quadrature::Quadrature;
 use crate::record::{LANES, Record};
 use crate::{Error, Real, Result};
@@ -552,28 +553,6 @@ where
     }
 }
 
-/// Halves the range until it is one chunk; the planes are split along.
-fn sweep_range<T, const D: usize, Kn, I, J>(
-    job: &Job<'_, T, D, Kn, I, J>,
-    sites: Range<usize>,
-    out: <Kn::Out as Record<T>>::PlanesMut<'_>,
-) -> T
-where
-    T: Real,
-    Kn: BondKernel<T, D>,
-    I: Inputs<T, Value = Kn::Node>,
-    J: Inputs<T, Value = Kn::Own>,
-{
-    if sites.len() <= CHUNK * LANES {
-        return sweep_chunk(job, sites, out);
-    }
-    let mid = (sites.len() / 2).next_multiple_of(WIDEST);
-    let (low, high) = <Kn::Out as Record<T>>::split(out, mid);
-    let (a, b) = (sites.start..sites.start + mid, sites.start + mid..sites.end);
-    let (a, b) = rayon::join(|| sweep_range(job, a, low), || sweep_range(job, b, high));
-    if b > a { b } else { a }
-}
-
 /// Everything a chunk of a test reads.
 struct TestJob<'a, T, const D: usize, B: BondTest<T, D>, I>
 where
@@ -861,7 +840,10 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
     {
         let marked = visit == Visit::Marked;
         let job = Job { lattice: self, kernel, table, bits, marked, u, input, own };
-        sweep_range(&job, 0..self.sites, out.planes_mut())
+        let pieces = (CHUNK * LANES, WIDEST);
+        sweep_pieces::<T, Kn::Out>(0..self.sites, pieces, out.planes_mut(), &|sites, out| {
+            sweep_chunk(&job, sites, out)
+        })
     }
 
     fn break_bonds<B, I>(
@@ -878,10 +860,8 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
     {
         let (full, marks) = (&bits.full[..], &bits.marks[..]);
         let job = TestJob { lattice: self, test, table, u, input, full, marks };
-        bits.bytes
-            .par_chunks_mut(CHUNK * bits.half)
-            .enumerate()
-            .map(|(chunk, bytes)| break_chunk(&job, chunk * CHUNK, bytes))
-            .reduce(Tally::default, Tally::merge)
+        break_pieces(&mut bits.bytes, CHUNK * bits.half, &|chunk, bytes| {
+            break_chunk(&job, chunk * CHUNK, bytes)
+        })
     }
 }

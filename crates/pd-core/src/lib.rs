@@ -20,6 +20,7 @@ pub mod integrator;
 pub mod lattice;
 pub mod loads;
 pub mod material;
+mod parallel;
 pub mod points;
 pub mod quadrature;
 pub mod real;

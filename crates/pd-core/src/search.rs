@@ -1,5 +1,6 @@
 //! Fixed-radius neighbour search in point clouds by cell lists.
 
+use crate::parallel::map_pieces;
 use nalgebra::SVector;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -7,6 +8,9 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 /// Relative slack of every comparison with a horizon, so that lattice points exactly at the horizon
 /// count whatever the rounding of their coordinates.
 pub const TOLERANCE: f64 = 1e-9;
+
+/// Cells whose points' neighbours one task finds.
+const CELLS: usize = 64;
 
 /// Compressed rows: the neighbours of every point, ascending.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -130,7 +134,12 @@ fn families<const D: usize>(levels: &[Level<D>], k: usize, counts: &[AtomicU32])
         }
         found
     };
-    (0..own.cells.len()).into_par_iter().map_init(Default::default, of_cell).collect()
+    map_pieces(own.cells.len(), CELLS, &|cells| {
+        let mut scratch = Default::default();
+        cells.map(|cell| of_cell(&mut scratch, cell)).collect::<Vec<_>>()
+    })
+    .flatten()
+    .collect()
 }
 
 /// Candidates of one cell, component by component so that the distances vectorise.

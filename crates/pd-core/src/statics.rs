@@ -14,16 +14,14 @@
 //! println!("{} iterations, u = {}", solved.iterations, body.displacement(17));
 //! ```
 
-use crate::body::{Dynamics, axpy, sum_in_order};
+use crate::body::Dynamics;
 use crate::field::{Field, map_sites};
 use crate::loads::{Bound, Loads};
+use crate::parallel::{axpy, sum_in_order, zip_pieces, zip_weighted};
 use crate::time_step::softest_wave;
 use crate::{Error, Real, Result};
 use nalgebra::{DMatrix, SMatrix, SVector};
-use rayon::prelude::*;
 
-/// Numbers that one task of an update works on.
-const CHUNK: usize = 8192;
 /// Probing displacements are ε to this power, in units of Δx: a central difference errs by their
 /// square, and by ε over them where a material adds 1 to H.
 const STEP: f64 = 0.4;
@@ -218,17 +216,13 @@ impl<T: Real> Operator<T> {
 
     /// out = factor · V · force on the free components, 0 on the others.
     fn weigh<const D: usize>(&self, force: &Vectors<T, D>, factor: f64, out: &mut Vectors<T, D>) {
-        let sites = self.weights.len();
         let factor = T::of(factor);
-        let planes = out.as_mut_slice().chunks_mut(sites).zip(force.as_slice().chunks(sites));
-        for (out, force) in planes {
-            let parts = out.par_chunks_mut(CHUNK).zip(force.par_chunks(CHUNK));
-            parts.zip(self.weights.par_chunks(CHUNK)).for_each(|((out, force), weights)| {
-                for ((out, f), w) in out.iter_mut().zip(force).zip(weights) {
-                    *out += factor * *w * *f;
-                }
-            });
-        }
+        let weights = &self.weights;
+        zip_weighted(out.as_mut_slice(), force.as_slice(), weights, &|out, force, weights| {
+            for ((out, f), w) in out.iter_mut().zip(force).zip(weights) {
+                *out += factor * *w * *f;
+            }
+        });
         self.held.iter().for_each(|&i| out.as_mut_slice()[i] = T::zero());
     }
 
@@ -249,8 +243,7 @@ impl<T: Real> Operator<T> {
         };
         for sign in signs {
             let factor = T::of(sign * step);
-            let parts = body.u_mut().as_mut_slice().par_chunks_mut(CHUNK);
-            parts.zip(q.as_slice().par_chunks(CHUNK)).for_each(|(u, q)| {
+            zip_pieces(body.u_mut().as_mut_slice(), q.as_slice(), &|u, q| {
                 u.iter_mut().zip(q).for_each(|(u, q)| *u = factor * *q);
             });
             body.evaluate()?;
@@ -313,9 +306,7 @@ fn dot<T: Real, const D: usize>(a: &Vectors<T, D>, b: &Vectors<T, D>) -> f64 {
 
 /// y = x + b y.
 fn xpby<T: Real>(x: &[T], b: T, y: &mut [T]) {
-    y.par_chunks_mut(CHUNK).zip(x.par_chunks(CHUNK)).for_each(|(y, x)| {
-        y.iter_mut().zip(x).for_each(|(y, x)| *y = *x + b * *y);
-    });
+    zip_pieces(y, x, &|y, x| y.iter_mut().zip(x).for_each(|(y, x)| *y = *x + b * *y));
 }
 
 /// Refuses a body with a part, connected by intact bonds, that the prescribed components leave

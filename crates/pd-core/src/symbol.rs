@@ -12,12 +12,13 @@ use crate::family::{Family, Horizon};
 use crate::grid::Grid;
 use crate::lattice::Lattice;
 use crate::material::Material;
+use crate::parallel::map_pieces;
 use crate::quadrature::Quadrature;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, SMatrix, SVector};
-use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::fmt;
+use std::ops::Range;
 
 /// Probing displacement in units of Δx: the central difference errs by its square, a material
 /// that adds u to numbers of order one by rounding over it.
@@ -268,15 +269,14 @@ impl<const D: usize> Symbol<D> {
         let zone = Zone { samples: samples.max(4).next_multiple_of(2) };
         let total = zone.samples.pow(D as u32);
         // D(−k) = D(k): half of the zone is enough.
-        let half: Vec<Option<[f64; 2]>> = (0..total)
-            .into_par_iter()
-            .map(|i| {
-                (i <= zone.mirror::<D>(i)).then(|| {
-                    let modes = self.eigen(&self.wave(&zone.phases(i)));
-                    [modes[0].eigenvalue, -modes[D - 1].eigenvalue]
-                })
+        let ends = |i: usize| {
+            (i <= zone.mirror::<D>(i)).then(|| {
+                let modes = self.eigen(&self.wave(&zone.phases(i)));
+                [modes[0].eigenvalue, -modes[D - 1].eigenvalue]
             })
-            .collect();
+        };
+        let row = |piece: Range<usize>| piece.map(ends).collect::<Vec<Option<[f64; 2]>>>();
+        let half: Vec<_> = map_pieces(total, zone.samples, &row).flatten().collect();
         let value = |i: usize, end: usize| {
             half[i].or(half[zone.mirror::<D>(i)]).map_or(f64::INFINITY, |values| values[end])
         };
@@ -297,9 +297,8 @@ impl<const D: usize> Symbol<D> {
                 .collect();
             starts.sort_by(|&a, &b| sampled(a).total_cmp(&sampled(b)));
             starts.truncate(STARTS);
-            let (_, phases) = starts
-                .into_par_iter()
-                .map(|i| descend(&objective, zone.phases(i), zone.step()))
+            let down = |i: usize| descend(&objective, zone.phases(starts[i]), zone.step());
+            let (_, phases) = map_pieces(starts.len(), 1, &|piece| down(piece.start))
                 .min_by(|a, b| a.0.total_cmp(&b.0))
                 .unwrap_or((0.0, SVector::zeros()));
             self.eigen(&self.wave(&phases.map(fold)))[if end == 0 { 0 } else { D - 1 }]

@@ -5,6 +5,7 @@
 //! broken bonds included; the lattice symbol and the classical estimates stand beside it.
 
 use crate::body::Dynamics;
+use crate::parallel::{map_pieces, sum_in_order};
 use crate::symbol::Symbol;
 use crate::{Error, Real, Result};
 use nalgebra::{DMatrix, DVector, SVector};
@@ -145,7 +146,6 @@ fn dominant_wave<T: Real, const D: usize, B: Dynamics<T, D>>(
     body: &B,
     motion: &[SVector<f64, D>],
 ) -> SVector<f64, D> {
-    use rayon::prelude::*;
     let (samples, unit) = (WAVES[usize::from(D == 3)], body.unit());
     let n = body.nodes();
     let middle = (0..n).map(|i| body.position(i)).sum::<SVector<f64, D>>() / n as f64;
@@ -172,8 +172,11 @@ fn dominant_wave<T: Real, const D: usize, B: Dynamics<T, D>>(
         }
         even.norm_squared() + odd.norm_squared()
     };
-    let contents: Vec<f64> =
-        (0..samples.pow(D as u32)).into_par_iter().map(|index| content(&wave(index))).collect();
+    let contents: Vec<f64> = map_pieces(samples.pow(D as u32), samples, &|piece| {
+        piece.map(|index| content(&wave(index))).collect::<Vec<f64>>()
+    })
+    .flatten()
+    .collect();
     wave(DVector::from_vec(contents).imax())
 }
 
@@ -205,7 +208,7 @@ fn lanczos<T: Real, const D: usize, B: Dynamics<T, D>>(
     let n = body.nodes();
     let masses: Vec<f64> = (0..n).map(|node| body.mass(node)).collect();
     let dot = |a: &[SVector<f64, D>], b: &[SVector<f64, D>]| {
-        crate::body::sum_in_order(n, |i| masses[i] * a[i].dot(&b[i]))
+        sum_in_order(n, |i| masses[i] * a[i].dot(&b[i]))
     };
     let mut q: Vec<SVector<f64, D>> =
         (0..n).map(|i| SVector::from_fn(|d, _| noise(D * i + d))).collect();
