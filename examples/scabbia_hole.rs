@@ -11,7 +11,6 @@
 //!
 //! `--short` takes Δx = 5 mm, `--full` adds the polynomial micromoduli with surface correction.
 //! Pictures go to `out/scabbia_hole/`.
-mod common;
 
 use common::{Effort, Outcome, at_most, close_to, compared, done, head, reported, watch};
 use pd_testkit::fem::{Displacements, table};

@@ -10,7 +10,6 @@
 //! Both calibrations, with and without surface correction, and the load in the horizon's layer or
 //! in the last row of nodes. `--short` takes Δx = 5 mm, `--full` every combination. Pictures go to
 //! `out/scabbia_plate/`.
-mod common;
 
 use common::{Effort, Outcome, at_most, close_to, done, head, reported, watch};
 use pd_testkit::fem::Displacements;

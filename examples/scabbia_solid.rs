@@ -9,7 +9,6 @@
 //!
 //! `--short` takes Δx = 15 mm, `--full` adds Δx = 5 mm at m = 3 (δ-convergence). Pictures go to
 //! `out/scabbia_solid/`.
-mod common;
 
 use common::{Effort, Outcome, at_most, compared, done, head, reported, watch};
 use pd_testkit::fem::Displacements;
