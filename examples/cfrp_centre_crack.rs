@@ -22,13 +22,12 @@ use peridynamics::io::{ColourMap, FieldMap};
 use peridynamics::models::elasticity::catalogue;
 use peridynamics::observe::{FieldOutput, Progress, Table, snapshot_with_stress};
 use peridynamics::prelude::*;
-use peridynamics::study::{Effort, conclude, damage, draw_damage};
+use peridynamics::study::{Effort, Outcome, conclude, damage, draw_damage};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 type Plate<M> = Body<f64, 2, Lattice<f64, 2>, M, Breaking<TsaiHill, 2>>;
 type Place = SVector<f64, 2>;
-type Outcome<X> = std::result::Result<X, Box<dyn std::error::Error>>;
 
 /// Width, height, half length of the crack in metres.
 const WIDTH: f64 = 0.125;
@@ -219,7 +218,7 @@ fn measure(scene: &Scene, reading: &Reading, first: f64, share: f64) -> Outcome<
     Ok(table)
 }
 
-fn crack<M: StressState<f64, 2>>(scene: &Scene, material: M, criterion: TsaiHill) -> Outcome<()> {
+fn crack<M: StressState<f64, 2>>(scene: &Scene, material: M, criterion: TsaiHill) -> Outcome {
     let (degrees, folder, bulk) = (scene.degrees, &scene.folder, scene.bulk_failure());
     let mut body = scene.body(material, criterion)?;
     println!(
@@ -276,7 +275,7 @@ fn crack<M: StressState<f64, 2>>(scene: &Scene, material: M, criterion: TsaiHill
     Ok(conclude(&table, Effort::from_arguments(), &folder.to_string_lossy(), &known)?)
 }
 
-fn main() -> Outcome<()> {
+fn main() -> Outcome {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let angle = arguments.iter().find(|a| !a.starts_with("--"));
     let degrees: f64 = angle.map_or(Ok(45.0), |a| a.parse())?;

@@ -9,17 +9,17 @@
 //! pictures of error over spacing go to `out/convergence/`.
 //!
 //! `--short` stops early in each series, `--full` goes a step further and adds 3D.
-mod common;
 
-use common::{Effort, Outcome, at_most, close_to, head};
 use peridynamics::core::convergence::{
-    Measured, Resolution, Study, delta_convergence, delta_m_convergence, m_convergence,
+    Measured, Resolution, Row, Study, delta_convergence, delta_m_convergence, m_convergence,
 };
 use peridynamics::io::LinePlot;
 use peridynamics::models::elasticity::catalogue::{GLASS_EPOXY, pps_carbon};
 use peridynamics::prelude::*;
+use peridynamics::study::{Effort, Outcome, conclude};
 use std::f64::consts::TAU;
 
+const FOLDER: &str = "out/convergence";
 const EDGE: f64 = 0.1;
 const OMEGA: InfluenceFunction = InfluenceFunction::Gaussian;
 
@@ -111,38 +111,46 @@ fn main() -> Outcome {
     let delta = delta_convergence(3.0, &spacings)?;
     let m = m_convergence(EDGE / 10.0, &[3.0, 4.0, 5.0, 6.0, 8.0][..n + 1])?;
     let delta_m = delta_m_convergence(EDGE / 10.0, &[3.0, 4.0, 5.0, 6.0, 7.0][..n + 1], 1.0)?;
+    let title = "Convergence to the local solution";
+    let mut table = Measures::new(title, &effort.command("convergence"));
     for (name, members) in [
-        ("delta-convergence (m = 3)", delta),
-        ("m-convergence", m),
-        ("delta-m-convergence", delta_m),
+        ("δ-convergence (m = 3)", delta),
+        ("m-convergence (δ = 10 mm)", m),
+        ("δm-convergence", delta_m),
     ] {
         let studies = run(&members)?;
-        let mut plot = LinePlot::new(name, "spacing [m]", "error").log_log();
+        let kind = name.split(' ').next().unwrap_or(name).replace('δ', "delta");
+        let mut plot = LinePlot::new(&kind, "spacing [m]", "error").log_log();
         for (material, study) in &studies {
             println!("{name}, {material}\n{study}");
             let points = study.rows.iter().map(|r| (r.resolution.spacing, r.measured.error));
             plot = plot.line(material, &points.collect::<Vec<_>>());
+            let errors: Vec<_> =
+                study.rows.iter().map(|row| format!("{:.1e}", row.measured.error)).collect();
+            table.told_in_words(&format!("{name}, {material}: errors"), "–", &errors.join("; "));
         }
-        let file = name.split(' ').next().unwrap_or(name);
-        plot.write(format!("out/convergence/{file}.png"))?;
-        head();
-        let order =
-            |k: usize| studies[k].1.rows.last().and_then(|row| row.order).unwrap_or(f64::NAN);
-        match file {
+        plot.write(format!("{FOLDER}/{kind}.png"))?;
+        let [polynomial, split, correspondence] = studies.map(|(_, study)| study.rows);
+        let order = |rows: &[Row]| rows.last().and_then(|row| row.order).unwrap_or(f64::NAN);
+        let last = |rows: &[Row]| rows.last().map_or(f64::NAN, |row| row.measured.error);
+        match kind.as_str() {
             // The quadrature keeps the polynomial's stiffness wrong by the same share.
             "delta-convergence" => {
                 let tolerance = effort.choose(0.3, 0.15, 0.15);
-                close_to("last order of the positive split", 2.0, tolerance, order(1));
-                close_to("last order of correspondence", 2.0, tolerance, order(2));
+                let name = |what: &str| format!("{name}: last order of {what}");
+                table.hard_near(&name("the positive split"), order(&split), 2.0, tolerance);
+                table.hard_near(&name("correspondence"), order(&correspondence), 2.0, tolerance);
+                table.told(&name("the polynomial"), order(&polynomial));
             }
             "m-convergence" => {
-                let last = |k: usize| studies[k].1.rows.last().map_or(0.0, |r| r.measured.error);
-                at_most("polynomial against split at the largest m", 2.0, last(0) / last(1));
+                let name =
+                    "m-convergence: the polynomial's error over the split's at the largest m";
+                table.hard_most(name, last(&polynomial) / last(&split), 2.0);
             }
-            _ => at_most("polynomial: error of the last over the first", 0.5, {
-                let rows = &studies[0].1.rows;
-                rows[rows.len() - 1].measured.error / rows[0].measured.error
-            }),
+            _ => {
+                let name = "δm-convergence: the polynomial's last error over its first";
+                table.hard_most(name, last(&polynomial) / polynomial[0].measured.error, 0.5);
+            }
         }
     }
     if effort == Effort::Full {
@@ -151,10 +159,9 @@ fn main() -> Outcome {
         let spacings = [EDGE / 10.0, EDGE / 20.0, EDGE / 40.0];
         let study =
             Study::run(&delta_convergence(2.0, &spacings)?, |r| measure(&split, &stiffness, r))?;
-        println!("delta-convergence in 3D (m = 2), positive split\n{study}");
-        head();
-        close_to("order of the positive split in 3D", 2.0, 0.3, study.order().unwrap_or(f64::NAN));
+        println!("δ-convergence in 3D (m = 2), positive split\n{study}");
+        let name = "δ-convergence in 3D (m = 2): order of the positive split";
+        table.hard_near(name, study.order().unwrap_or(f64::NAN), 2.0, 0.3);
     }
-    println!("pictures are in out/convergence");
-    Ok(())
+    Ok(conclude(&table, effort, FOLDER, &[])?)
 }

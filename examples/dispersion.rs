@@ -8,16 +8,16 @@
 //! each the phase speed of a long wave against the classical one, and the deviation at a wavelength
 //! of ten spacings. The symbol is also held against a run in time: a standing wave in a bar. Pictures
 //! of ω(k) go to `out/dispersion/`; a wave that grows ends its curve.
-mod common;
 
-use common::{Effort, Outcome, at_most, head};
 use peridynamics::io::LinePlot;
 use peridynamics::models::elasticity::catalogue::{
     GRAPHITE_EPOXY, GRAPHITE_EPOXY_DENSITY as DENSITY, steel,
 };
 use peridynamics::prelude::*;
+use peridynamics::study::{Effort, Outcome, conclude};
 use std::f64::consts::{PI, TAU};
 
+const FOLDER: &str = "out/dispersion";
 const OMEGA: InfluenceFunction = InfluenceFunction::Gaussian;
 const DX: f64 = 1e-3;
 const M: f64 = 3.0;
@@ -28,7 +28,7 @@ struct Deviation {
     long: f64,
     /// The same at a wavelength of ten spacings.
     ten: f64,
-    stable: String,
+    stable: &'static str,
 }
 
 fn study<Ma: Material<f64, 2>>(
@@ -73,14 +73,14 @@ fn study<Ma: Material<f64, 2>>(
             }
         }
         let file = name.replace([' ', ',', '–'], "_");
-        plot.write(format!("out/dispersion/{file}_{degrees}.png"))?;
+        plot.write(format!("{FOLDER}/{file}_{degrees}.png"))?;
     }
     let stable = match symbol.stability() {
         Stability::Stable(_) => "stable",
         Stability::ZeroEnergy(_) => "zero-energy modes",
         Stability::Unstable(_) => "unstable",
     };
-    Ok(Deviation { long, ten, stable: stable.to_owned() })
+    Ok(Deviation { long, ten, stable })
 }
 
 /// Frequency of a wave in a run over the symbol's: u_x ∝ cos kx at rest is a standing wave, whose
@@ -149,22 +149,22 @@ fn main() -> Outcome {
             0.06,
         ),
     ];
-    println!("model | long waves, worst error of the speed | ten spacings | symbol");
-    for (name, deviation, _) in &rows {
-        let Deviation { long, ten, stable } = deviation;
-        println!("{name} | {long:.2e} | {ten:.2e} | {stable}");
-    }
-    head();
-    for (name, deviation, limit) in &rows {
+    let title = "Dispersion against Christoffel";
+    let mut table = Measures::new(title, &effort.command("dispersion"));
+    for (name, Deviation { long, ten, stable }, limit) in &rows {
+        let what = format!("{name}: speed of long waves, error");
         if limit.is_finite() {
-            at_most(&format!("{name}: speed of long waves"), *limit, deviation.long);
+            table.hard_most(&what, *long, *limit);
+        } else {
+            table.told(&what, *long);
         }
+        let ten = format!("{:.0} %; {stable}", ten * 1e2);
+        table.told_in_words(&format!("{name}: at ten spacings"), "–", &ten);
     }
     for cells in effort.choose(vec![12], vec![12, 24], vec![8, 12, 24, 48]) {
         let ratio = standing_wave(&ply, cells)?;
-        let name = format!("run against symbol, wavelength of {cells} spacings");
-        at_most(&name, 1e-3, (ratio - 1.0).abs());
+        let name = format!("a run against the symbol, wavelength of {cells} spacings");
+        table.hard_most(&name, (ratio - 1.0).abs(), 1e-3);
     }
-    println!("pictures are in out/dispersion");
-    Ok(())
+    Ok(conclude(&table, effort, FOLDER, &[])?)
 }

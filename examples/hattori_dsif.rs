@@ -17,9 +17,7 @@
 //! Usual: 200² particles; the time step at 90 % of the stable limit against the paper's 0.01 δ/c_p
 //! at 100². `--full` takes Table 1, 200² to 500² with m = 1 to 5 (some ten minutes). Pictures go to
 //! `out/hattori_dsif/`.
-mod common;
 
-use common::{Effort, Outcome};
 use pd_testkit::dsif::{at_times, curve, errors, opening};
 use pd_testkit::fem::table;
 use peridynamics::io::LinePlot;
@@ -27,7 +25,7 @@ use peridynamics::models::elasticity::catalogue::{GRAPHITE_EPOXY, GRAPHITE_EPOXY
 use peridynamics::models::elasticity::{Intensity, OpeningFit};
 use peridynamics::models::{NoControl, ZeroEnergyControl};
 use peridynamics::prelude::*;
-use peridynamics::study::conclude;
+use peridynamics::study::{Effort, Outcome, conclude};
 use std::time::Instant;
 
 /// Edge and length of the crack in metres; end of the run in seconds.

@@ -15,15 +15,13 @@
 //! independent code for §6.1: `cargo test --test finite_elements`), with the circles made of squares
 //! as those of the bodies are. Pictures and the table go to `out/hattori_inclusion/`; `--full` takes
 //! the paper's 400 × 800 nodes.
-mod common;
 
-use common::{Effort, Outcome};
 use pd_testkit::dsif::{at_times, curve, errors, opening};
 use pd_testkit::quads::Quads;
 use peridynamics::io::LinePlot;
 use peridynamics::models::elasticity::{Intensity, OpeningFit, catalogue};
 use peridynamics::prelude::*;
-use peridynamics::study::conclude;
+use peridynamics::study::{Effort, Outcome, conclude};
 
 type Place = SVector<f64, 2>;
 
@@ -165,34 +163,35 @@ fn main() -> Outcome {
         plots[1] = plots[1].clone().line(name, &curve(&study.times, k, |k| k.ii));
     };
     add("finite elements", &fem[1]);
-    println!("errors (Eq. 38) at 45°, K_I and K_II each");
-    println!("nodes | m | as the paper, r = 0.4 mm | fit | bond-associated, r = 0.4 mm | fit");
     for (dx, horizons) in cases {
         let nodes = format!("{:.0} × {:.0}", 20.0 / dx, 40.0 / dx);
         for &m in horizons {
             let size = (dx * MM, f64::from(m));
-            let shown = |history: &History| {
-                let off = [0, 1].map(|r| errors(&history[r], &fem[r]));
-                off.map(|(i, ii)| format!("{i:.3}, {ii:.3}")).join(" | ")
-            };
             match (study.body(size, plain), study.body(size, associated)) {
                 (Ok(paper), Ok(own)) => {
-                    println!("{nodes} | {m} | {} | {}", shown(&paper), shown(&own));
                     add(&format!("{nodes}, m = {m}, no control"), &paper[1]);
                     add(&format!("{nodes}, m = {m}"), &own[1]);
-                    let name = |k: &str| format!("{k} error (Eq. 38), 45°, {nodes}, m = {m}, fit");
-                    if (dx < 0.15 || effort == Effort::Short) && m <= 3 {
-                        let (i, ii) = errors(&own[1], &fem[1]);
-                        table.hard_most(&name("K_I"), i, 0.14);
-                        table.soft_most(&name("K_II"), ii, 0.14);
-                        let (i, ii) = errors(&paper[1], &fem[1]);
-                        table.soft_most(&name("as the paper, without control: K_I"), i, 0.14);
-                        table.soft_most(&name("as the paper, without control: K_II"), ii, 0.14);
+                    let at = format!("45°, {nodes}, m = {m}, fit");
+                    let fine = dx < 0.15 || effort == Effort::Short;
+                    for (how, k) in [("", &own), ("as the paper, without control: ", &paper)] {
+                        let (i, ii) = errors(&k[1], &fem[1]);
+                        let demand = if fine && m <= 3 && how.is_empty() {
+                            Measures::hard_most
+                        } else {
+                            Measures::soft_most
+                        };
+                        demand(&mut table, &format!("{how}K_I error (Eq. 38), {at}"), i, 0.14);
+                        table.soft_most(&format!("{how}K_II error, {at}"), ii, 0.14);
                     }
                 }
                 (Err(error), _) | (_, Err(error)) => {
                     let text = error.to_string();
-                    println!("{nodes} | {m} | refused: {}", text.split(":").next().unwrap_or(""));
+                    let first = text.split(':').next().unwrap_or_default();
+                    table.told_in_words(
+                        &format!("45°, {nodes}, m = {m}"),
+                        "–",
+                        &format!("refused: {first}"),
+                    );
                 }
             }
         }
@@ -210,7 +209,7 @@ fn main() -> Outcome {
         table.soft_most(&name("K_II error, fit"), ii, 0.14);
         let share = |k: &History| largest(&k[1], |k| k.ii) / largest(&k[1], |k| k.i);
         table.hard_least(&name("largest |K_II| over largest |K_I|"), share(&got), 0.01);
-        println!("{degrees}°: the same by finite elements {:.3}", share(&fem));
+        table.told(&name("the same by finite elements"), share(&fem));
     }
     plots[0].write(format!("{FOLDER}/k1.png"))?;
     plots[1].write(format!("{FOLDER}/k2.png"))?;

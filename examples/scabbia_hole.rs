@@ -11,16 +11,16 @@
 //!
 //! `--short` takes Δx = 5 mm, `--full` adds the polynomial micromoduli with surface correction.
 //! Pictures go to `out/scabbia_hole/`.
-mod common;
 
-use common::{Effort, Outcome, at_most, close_to, compared, done, head, reported, watch};
-use pd_testkit::fem::{Displacements, table};
+use pd_testkit::fem::{self, Displacements};
 use peridynamics::io::{ColourMap, FieldMap, LinePlot};
 use peridynamics::models::elasticity::catalogue::GLASS_EPOXY;
 use peridynamics::models::{OnFamily, ScalarState};
 use peridynamics::prelude::*;
+use peridynamics::study::{Effort, Outcome, conclude, watch};
 use std::time::Instant;
 
+const FOLDER: &str = "out/scabbia_hole";
 const LENGTH: f64 = 0.4;
 const HEIGHT: f64 = 0.2;
 const CENTRE: [f64; 2] = [0.2, 0.1];
@@ -54,7 +54,6 @@ fn solve<S: ScalarState<f64, 2>>(name: &str, model: S, dx: f64) -> Outcome<Solut
     let start = Instant::now();
     let solved =
         Statics::new().with_tolerance(1e-6)?.solve_watched(&mut body, loads, watch(name))?;
-    done();
     let (nodes, seconds) = (body.nodes(), start.elapsed().as_secs_f64());
     println!("{name}: {nodes} nodes, {} iterations, {seconds:.1} s", solved.iterations);
     Ok(Solution {
@@ -107,7 +106,7 @@ fn main() -> Outcome {
         runs.push(("polynomial, corrected", solve("polynomial, corrected", corrected, dx)?));
     }
 
-    let reference = table("scabbia64_hoop");
+    let reference = fem::table("scabbia64_hoop");
     let (angles, hoop_fem) = (&reference["theta_deg"], &reference["hoop_FEM_Pa(n=48)"]);
     let largest = hoop_fem.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let line = |values: &[f64]| -> Vec<(f64, f64)> {
@@ -115,29 +114,30 @@ fn main() -> Outcome {
     };
     let mut plot = LinePlot::new("hoop stress on the hole", "angle from x [°]", "stress [MPa]")
         .line("finite elements", &line(hoop_fem));
-    head();
+    let mut table = Measures::new("Pulled plate with a hole (Scabbia §6.4)", &effort.command("scabbia_hole"));
     for (name, solution) in &runs {
+        let what = |what: &str| format!("{name}: {what}");
         if at_paper {
-            close_to("nodes in the plate", 72140.0, 0.0, solution.plate_nodes as f64);
+            table.hard_near(&what("nodes in the plate"), solution.plate_nodes as f64, 72140.0, 0.0);
         }
         let limit = if at_paper { 0.03 } else { 0.15 };
         let raw = fem.differences(&solution.grid, |i| solution.u[i]);
         let worst = |d: &[f64]| d.iter().copied().fold(0.0, f64::max);
         let at = |x: &SVector<f64, 2>| {
-            pd_testkit::fem::interpolate(&solution.grid, |i| solution.u[i], x)
+            fem::interpolate(&solution.grid, |i| solution.u[i], x)
         };
         let offset = fem.points.iter().zip(&fem.u).map(|(x, u)| at(x).y - u.y).sum::<f64>()
             / fem.points.len() as f64;
         let shift = SVector::from([0.0, offset]);
         let shifted = fem.differences(&solution.grid, |i| solution.u[i] - shift);
-        at_most(&format!("{name}: difference (Eq. 51)"), limit, worst(&raw));
-        reported("  without the mean of u_y", worst(&shifted));
-        reported("  mean difference", raw.iter().sum::<f64>() / raw.len() as f64);
-        compared("  force [N/mm]", 646.203, solution.force * 1e-3);
+        table.hard_most(&what("difference (Eq. 51)"), worst(&raw), limit);
+        table.told(&what("without the mean of u_y"), worst(&shifted));
+        table.told(&what("mean difference"), raw.iter().sum::<f64>() / raw.len() as f64);
+        table.compared(&what("force [N/mm]"), solution.force * 1e-3, 646.203);
         let stress: Vec<f64> =
             angles.iter().map(|&a| hoop(solution, &stiffness, a, 4.0 * dx)).collect();
         let peak = stress.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        compared("  largest hoop stress [Pa]", largest, peak);
+        table.compared(&what("largest hoop stress [MPa]"), peak / 1e6, largest / 1e6);
         plot = plot.line(name, &line(&stress));
 
         let file = name.replace([' ', ','], "_");
@@ -145,7 +145,7 @@ fn main() -> Outcome {
             .title(&format!("{name}: difference (Eq. 51), mean of u_y removed"))
             .range(0.0, limit)
             .colours(ColourMap::Damage)
-            .write(format!("out/scabbia_hole/{file}_difference.png"))?;
+            .write(format!("{FOLDER}/{file}_difference.png"))?;
         let inside: Vec<usize> = (0..solution.grid.len())
             .filter(|&i| (0.0..LENGTH).contains(&solution.grid.position(i)[0]))
             .collect();
@@ -154,9 +154,8 @@ fn main() -> Outcome {
         let size: Vec<f64> = inside.iter().map(|&i| solution.u[i].norm()).collect();
         FieldMap::new(&places, 1.15 * dx, &size)
             .title(&format!("{name}: |u| [m] (u x 50)"))
-            .write(format!("out/scabbia_hole/{file}.png"))?;
+            .write(format!("{FOLDER}/{file}.png"))?;
     }
-    plot.write("out/scabbia_hole/hoop.png")?;
-    println!("pictures are in out/scabbia_hole");
-    Ok(())
+    plot.write(format!("{FOLDER}/hoop.png"))?;
+    Ok(conclude(&table, effort, FOLDER, &[])?)
 }

@@ -10,17 +10,17 @@
 //! Both calibrations, with and without surface correction, and the load in the horizon's layer or
 //! in the last row of nodes. `--short` takes Δx = 5 mm, `--full` every combination. Pictures go to
 //! `out/scabbia_plate/`.
-mod common;
 
-use common::{Effort, Outcome, at_most, close_to, done, head, reported, watch};
 use pd_testkit::fem::Displacements;
 use pd_testkit::scabbia63::{HEIGHT, LENGTH, PRESSURE, Plate, Solution as Solution63};
 use peridynamics::io::{ColourMap, FieldMap};
 use peridynamics::models::elasticity::catalogue::GLASS_EPOXY;
 use peridynamics::models::{OnFamily, ScalarState};
 use peridynamics::prelude::*;
+use peridynamics::study::{Effort, Outcome, conclude, watch};
 use std::time::Instant;
 
+const FOLDER: &str = "out/scabbia_plate";
 /// Deformed shapes are drawn magnified by this, as in the paper.
 const SCALE: f64 = 50.0;
 
@@ -41,7 +41,6 @@ fn solve<S: ScalarState<f64, 2>>(
     let plate = Plate { dx, m, quadrature: Quadrature::Exact, depth, tolerance: 1e-6 };
     let Solution63 { body, clamp, solved } =
         plate.solve::<f64, _>(Ordinary::linearised(model), watch(name))?;
-    done();
     println!(
         "{name}: {} nodes, {} iterations, {:.1} s",
         body.nodes(),
@@ -61,7 +60,7 @@ fn draw(file: &str, title: &str, solution: &Solution, dx: f64) -> Outcome {
     let size: Vec<f64> = inside.iter().map(|&i| solution.u[i].norm()).collect();
     FieldMap::new(&places, 1.15 * dx, &size)
         .title(title)
-        .write(format!("out/scabbia_plate/{file}"))?;
+        .write(format!("{FOLDER}/{file}"))?;
     Ok(())
 }
 
@@ -93,33 +92,33 @@ fn main() -> Outcome {
     runs.push((name, solve(name, corrected, plate, dx)?));
 
     let at_paper = dx == 1e-3;
-    head();
+    let mut table = Measures::new("Plate under traction on half an edge (Scabbia §6.3)", &effort.command("scabbia_plate"));
     for (name, solution) in &runs {
         let edge = fem.differences(&solution.grid, |i| solution.u[i]);
         let layer = fem_layer.differences(&solution.grid, |i| solution.u[i]);
         let worst = |d: &[f64]| d.iter().copied().fold(0.0, f64::max);
         let limit = if at_paper { 0.01 } else { 0.1 };
-        at_most(&format!("{name}: difference (Eq. 51) to load on the edge"), limit, worst(&edge));
+        let what = |what: &str| format!("{name}: {what}");
+        table.hard_most(&what("difference (Eq. 51) to load on the edge"), worst(&edge), limit);
         let far = fem.points.iter().zip(&edge).filter(|(x, _)| x[0] < LENGTH - 0.02);
         let far = far.map(|(_, d)| *d).fold(0.0, f64::max);
-        reported("  the same, 20 mm away from the loaded edge", far);
-        reported("  mean difference", edge.iter().sum::<f64>() / edge.len() as f64);
-        reported("  to load in the last 5 mm", worst(&layer));
+        table.told(&what("the same, 20 mm away from the loaded edge"), far);
+        table.told(&what("mean difference"), edge.iter().sum::<f64>() / edge.len() as f64);
+        table.told(&what("difference to load in the last 5 mm"), worst(&layer));
         let force = PRESSURE * 0.5 * HEIGHT;
-        close_to("  reaction [N/m]", -force, 1e-4 * force, solution.reaction);
+        table.hard_near(&what("reaction [N/m]"), solution.reaction, -force, 1e-4 * force);
         let file = name.replace([' ', ','], "_");
         draw(&format!("{file}.png"), &format!("{name}: |u| [m] (u x 50)"), solution, dx)?;
         FieldMap::new(&fem.points, 5e-3, &edge)
             .title(&format!("{name}: difference (Eq. 51)"))
             .range(0.0, if at_paper { 0.02 } else { 0.1 })
             .colours(ColourMap::Damage)
-            .write(format!("out/scabbia_plate/{file}_difference.png"))?;
+            .write(format!("{FOLDER}/{file}_difference.png"))?;
     }
     let places: Vec<_> = fem.points.iter().zip(&fem.u).map(|(x, u)| x + SCALE * u).collect();
     let size: Vec<f64> = fem.u.iter().map(|u| u.norm()).collect();
     FieldMap::new(&places, 6e-3, &size)
         .title("finite elements: |u| [m] (u x 50)")
-        .write("out/scabbia_plate/fem.png")?;
-    println!("pictures are in out/scabbia_plate");
-    Ok(())
+        .write(format!("{FOLDER}/fem.png"))?;
+    Ok(conclude(&table, effort, FOLDER, &[])?)
 }

@@ -9,16 +9,16 @@
 //!
 //! `--short` takes Δx = 15 mm, `--full` adds Δx = 5 mm at m = 3 (δ-convergence). Pictures go to
 //! `out/scabbia_solid/`.
-mod common;
 
-use common::{Effort, Outcome, at_most, compared, done, head, reported, watch};
 use pd_testkit::fem::Displacements;
 use peridynamics::io::{ColourMap, FieldMap};
 use peridynamics::models::elasticity::catalogue::pps_carbon;
 use peridynamics::models::{OnFamily, ScalarState};
 use peridynamics::prelude::*;
+use peridynamics::study::{Effort, Outcome, conclude, watch};
 use std::time::Instant;
 
+const FOLDER: &str = "out/scabbia_solid";
 const SIZE: [f64; 3] = [0.6, 0.15, 0.12];
 const PULL: f64 = 1e-3;
 const M: f64 = 3.0;
@@ -41,7 +41,6 @@ fn solve<S: ScalarState<f64, 3>>(name: &str, model: S, dx: f64) -> Outcome<Solut
     // The paper asks for 1e-4 only; here the solver must not show in the differences.
     let solved =
         Statics::new().with_tolerance(1e-6)?.solve_watched(&mut body, loads, watch(name))?;
-    done();
     let (nodes, seconds) = (body.nodes(), start.elapsed().as_secs_f64());
     println!("{name}: {nodes} nodes, {} iterations, {seconds:.1} s", solved.iterations);
     Ok(Solution {
@@ -69,27 +68,28 @@ fn main() -> Outcome {
         runs.push(("polynomial, half spacing", 5e-3, solve("half spacing", polynomial, 5e-3)?));
         runs.push(("positive split, half spacing", 5e-3, solve("split, half", split, 5e-3)?));
     }
-    head();
+    let mut table = Measures::new("Bar of a monoclinic solid (Scabbia §6.5)", &effort.command("scabbia_solid"));
     for (name, dx, solution) in &runs {
         let differences = fem.differences(&solution.grid, |i| solution.u[i]);
         let worst = differences.iter().copied().fold(0.0, f64::max);
         let limit = if effort == Effort::Short { 0.1 } else { 0.03 };
-        at_most(&format!("{name}: difference (Eq. 52)"), limit, worst);
+        let what = |what: &str| format!("{name}: {what}");
+        table.hard_most(&what("difference (Eq. 52)"), worst, limit);
         let slice = |low: f64, high: f64| {
             let inside = fem.points.iter().zip(&differences);
             let inside = inside.filter(|(x, _)| (low..high).contains(&x[0]));
             inside.map(|(_, d)| *d).fold(0.0, f64::max)
         };
-        reported("  in the third at the clamp", slice(0.0, 0.2));
-        reported("  in the middle third", slice(0.2, 0.4));
-        reported("  in the third that is pulled", slice(0.4, 0.6));
-        reported("  mean", differences.iter().sum::<f64>() / differences.len() as f64);
-        compared("  force [N]", 572.65e3, solution.force);
+        table.told(&what("in the third at the clamp"), slice(0.0, 0.2));
+        table.told(&what("in the middle third"), slice(0.2, 0.4));
+        table.told(&what("in the third that is pulled"), slice(0.4, 0.6));
+        table.told(&what("mean"), differences.iter().sum::<f64>() / differences.len() as f64);
+        table.compared(&what("force [kN]"), solution.force / 1e3, 572.65);
         let end: Vec<usize> = (0..solution.grid.len())
             .filter(|&i| (0.6 - dx..0.6).contains(&solution.grid.position(i)[0]))
             .collect();
         let sideways = end.iter().map(|&i| solution.u[i].y).sum::<f64>() / end.len() as f64;
-        compared("  mean u_y of the pulled end [m]", -0.63364e-3, sideways);
+        table.compared(&what("mean u_y of the pulled end [mm]"), sideways * 1e3, -0.63364);
 
         let file = name.replace([' ', ','], "_");
         let front: Vec<usize> =
@@ -100,7 +100,7 @@ fn main() -> Outcome {
             .title(&format!("{name}: difference (Eq. 52), face z = 0"))
             .range(0.0, limit)
             .colours(ColourMap::Damage)
-            .write(format!("out/scabbia_solid/{file}_difference.png"))?;
+            .write(format!("{FOLDER}/{file}_difference.png"))?;
         let face: Vec<usize> = (0..solution.grid.len())
             .filter(|&i| {
                 let x = solution.grid.position(i);
@@ -114,8 +114,7 @@ fn main() -> Outcome {
         let size: Vec<f64> = face.iter().map(|&i| solution.u[i].norm()).collect();
         FieldMap::new(&places, 1.25 * dx, &size)
             .title(&format!("{name}: |u| [m], face z = 0 (u x 100)"))
-            .write(format!("out/scabbia_solid/{file}.png"))?;
+            .write(format!("{FOLDER}/{file}.png"))?;
     }
-    println!("pictures are in out/scabbia_solid");
-    Ok(())
+    Ok(conclude(&table, effort, FOLDER, &[])?)
 }

@@ -10,9 +10,7 @@
 //! stable time step and the softest wave, relative to r = 0; and for the best r. Then the path of a
 //! crack: a plate of HTA/6376 with a centre crack is pulled as in `cfrp_centre_crack`, by Tsai–Hill
 //! on the nonlocal strain with bridging fibres. Pictures go to `out/split_direction/`.
-mod common;
 
-use common::{Effort, Outcome, at_most, head};
 use peridynamics::damage::crack_path::{fit_line, without_ends};
 use peridynamics::io::LinePlot;
 use peridynamics::models::elasticity::catalogue::{
@@ -20,9 +18,10 @@ use peridynamics::models::elasticity::catalogue::{
     HTA_6376_STRENGTHS,
 };
 use peridynamics::prelude::*;
-use peridynamics::study::{damage, draw_damage};
+use peridynamics::study::{Effort, Outcome, conclude, damage, draw_damage};
 use std::f64::consts::{PI, TAU};
 
+const FOLDER: &str = "out/split_direction";
 const DENSITY: f64 = 1e3;
 
 struct Waves {
@@ -89,7 +88,7 @@ fn crack(degrees: f64, r: f64, across: f64) -> Outcome<(f64, f64)> {
     }
     drop(run);
     let title = format!("r = {r}: damage");
-    let file = format!("out/split_direction/crack_{r}.png");
+    let file = format!("{FOLDER}/crack_{r}.png");
     draw_damage(&body, (5.0, [0, 1]), |_| true, &title, file)?;
     let corner = SVector::from(size) * 0.5;
     let nodes = without_ends(&path.at_tip(&tip), &tip, (&-corner, &corner), dx);
@@ -115,20 +114,25 @@ fn main() -> Outcome {
     let mut errors = LinePlot::new("rms error of phase speeds", "r", "relative");
     let mut steps = LinePlot::new("time step over that at r = 0", "r", "ratio");
     let mut worst = f64::INFINITY;
-    println!("ply | angle | r | rms error | time step over r = 0 | softest over stiffest");
+    let title = "What bonds along the fibre buy the positive split";
+    let mut table = Measures::new(title, &effort.command("split_direction"));
     for (name, ply) in &plies {
         for degrees in [0.0, 30.0] {
             let all = ratios.iter().map(|&r| waves(ply, degrees, r, samples));
             let all: Vec<Waves> = all.collect::<Outcome<_>>()?;
             let best = (0..all.len()).min_by(|&a, &b| all[a].error.total_cmp(&all[b].error));
-            for k in [0, best.unwrap_or(0)] {
-                let Waves { error, time_step, softest } = &all[k];
-                let gain = time_step / all[0].time_step;
-                println!(
-                    "{name} | {degrees}° | {} | {error:.4} | {gain:.2} | {softest:.2e}",
-                    ratios[k]
-                );
-            }
+            let best = best.unwrap_or(0);
+            let step = all[best].time_step / all[0].time_step;
+            table.told_in_words(
+                &format!("{name}, {degrees}°: rms error of phase speeds at r = 0 and the best r"),
+                "–",
+                &format!(
+                    "{:.1} %; r = {}: {:.1} %, time step {step:.2}",
+                    all[0].error * 1e2,
+                    ratios[best],
+                    all[best].error * 1e2
+                ),
+            );
             worst = all.iter().map(|w| w.softest).fold(worst, f64::min);
             let label = format!("{name} {degrees}°");
             let curve = |value: &dyn Fn(&Waves) -> f64| -> Vec<(f64, f64)> {
@@ -138,15 +142,13 @@ fn main() -> Outcome {
             steps = steps.line(&label, &curve(&|w| w.time_step / all[0].time_step));
         }
     }
-    println!("crack, fibres at 45° | r | off the fibres [°] | growth [mm]");
+    table.hard_least("every r is stable: smallest share of the softest wave", worst, 0.0);
     for r in [0.0, 8.0, 32.0] {
         let (off, growth) = crack(45.0, r, effort.choose(50.0, 150.0, 300.0))?;
-        println!("HTA/6376 | {r} | {off:.1} | {growth:.1}");
+        let name = format!("crack in HTA/6376, fibres at 45°, r = {r}: off the fibres [°]");
+        table.told_in_words(&name, "–", &format!("{off:.0}, {growth:.1} mm long"));
     }
-    head();
-    at_most("every r is stable: − smallest share", 0.0, -worst);
-    errors.write("out/split_direction/error.png")?;
-    steps.write("out/split_direction/time_step.png")?;
-    println!("pictures are in out/split_direction");
-    Ok(())
+    errors.write(format!("{FOLDER}/error.png"))?;
+    steps.write(format!("{FOLDER}/time_step.png"))?;
+    Ok(conclude(&table, effort, FOLDER, &[])?)
 }

@@ -8,9 +8,7 @@
 //! largest one. Negative: that plane wave grows exponentially in a run and makes statics indefinite.
 //! Compared with the figures of an independent code (β = 1); one picture per m goes to
 //! `out/stability_map/`, a table of all cases to `out/stability_map/map.csv`.
-mod common;
 
-use common::{Effort, Outcome, at_most, close_to, head};
 use peridynamics::core::symbol::Extremes;
 use peridynamics::io::{ColourMap, FieldMap, LinePlot};
 use peridynamics::models::ScalarState;
@@ -18,8 +16,10 @@ use peridynamics::models::elasticity::catalogue::{
     GLASS_EPOXY, GRAPHITE_EPOXY, GRAPHITE_FABRIC_CARBON, HTA_6376,
 };
 use peridynamics::prelude::*;
+use peridynamics::study::{Effort, Outcome, conclude};
 use std::fmt::Write as _;
 
+const FOLDER: &str = "out/stability_map";
 const MATERIALS: [(&str, Lamina); 4] = [
     ("graphite fabric", GRAPHITE_FABRIC_CARBON),
     ("graphite-epoxy", GRAPHITE_EPOXY),
@@ -73,7 +73,8 @@ fn main() -> Outcome {
     let ratios: &[f64] = effort.choose(&[3.0], &[2.0, 3.0, 5.0], &[2.0, 3.0, 4.0, 5.0, 6.0]);
     let angles: Vec<f64> = (0..=90).step_by(step).map(f64::from).collect();
 
-    head();
+    let title = "When the polynomial micromoduli are stable";
+    let mut table = Measures::new(title, &effort.command("stability_map"));
     // Figures of the independent code: (material, angle, m, influence, GPa/Δx²).
     for (material, degrees, m, influence, reference) in [
         (0, 0.0, 3.0, 1, -24.9),
@@ -89,8 +90,9 @@ fn main() -> Outcome {
         let (name, ply) = &MATERIALS[material];
         let (title, influence) = INFLUENCES[influence];
         let [polynomial, _] = both(ply, degrees, m, influence, Quadrature::None, samples.max(60))?;
-        let what = format!("{name}, {degrees}°, m = {m}, {title}: softest [GPa/Δx²]");
-        close_to(&what, reference, 0.06 + 0.005 * f64::abs(reference), softest(&polynomial).0);
+        let what = format!("{name}, {degrees}°, m = {m}, {title}, β = 1: softest ρω² [GPa/Δx²]");
+        let tolerance = 0.06 + 0.005 * f64::abs(reference);
+        table.hard_near(&what, softest(&polynomial).0, reference, tolerance);
     }
 
     let mut csv = String::from(
@@ -140,20 +142,21 @@ fn main() -> Outcome {
                 }
             }
         }
-        lines.write(format!("out/stability_map/softest_m{m}.png"))?;
+        lines.write(format!("{FOLDER}/softest_m{m}.png"))?;
         FieldMap::new(&cells, 1.0, &values)
             .title(&format!("m = {m}: polynomial | positive split"))
             .range(-0.1, 0.1)
             .colours(ColourMap::Diverging)
-            .write(format!("out/stability_map/map_m{m}.png"))?;
+            .write(format!("{FOLDER}/map_m{m}.png"))?;
     }
-    std::fs::write("out/stability_map/map.csv", csv)?;
+    std::fs::write(format!("{FOLDER}/map.csv"), csv)?;
     println!("maps: angle to the right; down: constant, Gaussian, linear influence, in each the");
     println!("graphite fabric, graphite-epoxy, HTA/6376, glass-epoxy; share clipped at ±0.1");
-    println!("polynomial micromoduli: {unstable} of {total} cases are unstable");
-    at_most("glass-epoxy, m ≥ 3: − smallest share of the polynomial", 0.0, -glass);
-    at_most("positive split, all cases: − smallest share", 0.0, -worst_split);
-    println!("time step of the split over that of the polynomial: up to {longest:.2}");
-    println!("pictures and the table are in out/stability_map");
-    Ok(())
+    let cases = format!("{unstable} of {total}");
+    table.told_in_words("cases in which the polynomial micromoduli are unstable", "–", &cases);
+    let name = "glass–epoxy, m ≥ 3, polynomial: smallest share of the softest in the stiffest wave";
+    table.hard_least(name, glass, 0.0);
+    table.hard_least("positive split, all cases: smallest share", worst_split, 0.0);
+    table.told("largest time step of the split over that of the polynomial", longest);
+    Ok(conclude(&table, effort, FOLDER, &[])?)
 }

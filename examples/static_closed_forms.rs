@@ -11,16 +11,16 @@
 //! Δu = 2σ L⁻¹ √(a'² − x²), with a' > a. K from the slope of Δu² does not see that; K from one point
 //! does. `--short` takes Δx = a/8, usually a/20, `--full` a/40. Pictures go to
 //! `out/static_closed_forms/`.
-mod common;
 
-use common::{Effort, Outcome, at_most, head, reported};
-use pd_testkit::fem::table;
+use pd_testkit::fem;
 use pd_testkit::infinite_plate::{InfinitePlate, Square, hoop};
 use peridynamics::io::{ColourMap, FieldMap, LinePlot};
 use peridynamics::models::elasticity::catalogue::{GLASS_EPOXY, GRAPHITE_EPOXY};
 use peridynamics::prelude::*;
+use peridynamics::study::{Effort, Outcome, conclude};
 use std::f64::consts::PI;
 
+const FOLDER: &str = "out/static_closed_forms";
 const STRESS: f64 = 1e6;
 /// Half length of the crack and radius of the hole in metres.
 const A: f64 = 20e-3;
@@ -61,23 +61,26 @@ fn draw(name: &str, solved: &Solved, dx: f64) -> Outcome {
     FieldMap::new(&places, dx, &values)
         .title(&format!("{name}: error of u"))
         .colours(ColourMap::Damage)
-        .write(format!(
-            "out/static_closed_forms/{}.png",
-            name.replace(' ', "_").replace('°', "")
-        ))?;
+        .write(format!("{FOLDER}/{}.png", name.replace(' ', "_").replace('°', "")))?;
     Ok(())
 }
 
-fn crack(name: &str, ply: &Lamina, degrees: f64, dx: f64, limit: f64) -> Outcome {
+fn crack(
+    (name, ply): (&str, &Lamina),
+    degrees: f64,
+    (dx, limit): (f64, f64),
+    table: &mut Measures,
+) -> Outcome {
     let stiffness = Stiffness::<2>::lamina(ply)?.rotated(degrees.to_radians());
     let plate = InfinitePlate::new(&stiffness, SMatrix::from([[0.0, 0.0], [0.0, STRESS]]));
     let stroh = Stroh::new(&stiffness, 0.0)?;
     let segment = Segment::new([-A, 0.0], [A, 0.0])?;
     let policy = Precracked::by(segment).leaving_family();
     let solved = solve(&stiffness, policy, (dx, 3.0 * A), |_| true, |x| plate.crack(A, x))?;
-    let title = format!("{name} {degrees}°");
-    reported(&format!("{title}: error of u inside, over its largest value"), solved.error);
-    draw(&format!("crack {title}"), &solved, dx)?;
+    let title = format!("crack {name} {degrees}°");
+    let what = |what: &str| format!("{title}: {what}");
+    table.told(&what("error of u inside, over its largest value"), solved.error);
+    draw(&title, &solved, dx)?;
 
     // Opening between the rows next to the crack, as the opening stress it stands for:
     // L Δu / 2 = σ √(a'² − x²).
@@ -97,10 +100,11 @@ fn crack(name: &str, ply: &Lamina, degrees: f64, dx: f64, limit: f64) -> Outcome
         / points().map(|p| (p.0 - mx).powi(2)).sum::<f64>();
     let sigma = (-slope).sqrt();
     let longer = ((my / sigma.powi(2) + mx).sqrt() - A) / (M * dx);
-    at_most("  K_I from the slope of the opening, error", limit, (sigma / STRESS - 1.0).abs());
-    reported("  the crack seems longer by, in horizons", longer);
+    let name = what("K_I from the slope of Δu² over x², error");
+    table.hard_most(&name, (sigma / STRESS - 1.0).abs(), limit);
+    table.told(&what("it opens as if longer at each tip by, in horizons"), longer);
     let shear = inside.iter().map(|(_, s)| s[0].abs()).fold(0.0, f64::max) / (STRESS * A);
-    at_most("  K_II over K_I, should vanish", limit, shear);
+    table.hard_most(&what("K_II over K_I, should vanish"), shear, limit);
     let r = 0.25 * A;
     let near = (0..cells[0])
         .map(opening)
@@ -109,39 +113,40 @@ fn crack(name: &str, ply: &Lamina, degrees: f64, dx: f64, limit: f64) -> Outcome
     let k = stroh.intensity(A - x, &(stroh.opening_compliance() * s * 2.0));
     // The opening at r of the crack itself is not quite that of its first term.
     let exact = STRESS * ((A * A - x * x) / (2.0 * A * (A - x))).sqrt() * (PI * A).sqrt();
-    reported("  K_I from one point at r = a/4, error", k.i / exact - 1.0);
+    table.told(&what("K_I from one point at r = a/4, error"), k.i / exact - 1.0);
     Ok(())
 }
 
-fn hole(name: &str, ply: &Lamina, column: &str, degrees: f64, dx: f64, limit: f64) -> Outcome {
+fn hole(
+    (name, ply, column): (&str, &Lamina, &str),
+    degrees: f64,
+    (dx, limit): (f64, f64),
+    table: &mut Measures,
+) -> Outcome {
     let stiffness = Stiffness::<2>::lamina(ply)?.rotated(degrees.to_radians());
     let plate = InfinitePlate::new(&stiffness, SMatrix::from([[STRESS, 0.0], [0.0, 0.0]]));
     let keep = |x: &SVector<f64, 2>| x.norm() >= A;
     let solved = solve(&stiffness, NoDamage, (dx, 4.0 * A), keep, |x| plate.hole(A, x))?;
-    at_most(&format!("{name}: error of u inside, over its largest value"), limit, solved.error);
-    draw(&format!("hole {name}"), &solved, dx)?;
-    let reference = table("lekhnitskii_hole");
+    let title = format!("hole {name} {degrees}°");
+    let what = |what: &str| format!("{title}: {what}");
+    table.hard_most(&what("error of u inside, over its largest value"), solved.error, limit);
+    draw(&title, &solved, dx)?;
+    let reference = fem::table("lekhnitskii_hole");
     let (angles, exact) = (&reference["theta_deg"], &reference[column]);
     let field = |i: usize| solved.u[i];
     let at = |angle: f64| hoop((&solved.grid, field), &stiffness, A, angle, 4.0 * dx);
     let got: Vec<f64> = angles.iter().map(|&angle| at(angle) / STRESS).collect();
     let largest = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let (peak, exact_peak) = (largest(&got), largest(exact));
-    println!(
-        "  stress concentration | {exact_peak:.3} | {peak:.3} ({:+.1} %) | –",
-        100.0 * (peak / exact_peak - 1.0)
-    );
+    table.compared(&what("stress concentration"), peak, exact_peak);
     let rms = got.iter().zip(exact).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
     let rms = (rms / exact.iter().map(|b| b * b).sum::<f64>()).sqrt();
-    at_most("  hoop stress, L2 error over all angles", 3.0 * limit, rms);
+    table.hard_most(&what("hoop stress, L2 error over all angles"), rms, 3.0 * limit);
     let line = |v: &[f64]| angles.iter().copied().zip(v.iter().copied()).collect::<Vec<_>>();
-    LinePlot::new(&format!("hoop stress, {name}"), "angle from x [°]", "over remote stress")
+    LinePlot::new(&format!("hoop stress, {title}"), "angle from x [°]", "over remote stress")
         .line("closed form", &line(exact))
         .line("peridynamic", &line(&got))
-        .write(format!(
-            "out/static_closed_forms/hoop_{}.png",
-            name.replace(' ', "_").replace('°', "")
-        ))?;
+        .write(format!("{FOLDER}/hoop_{}.png", title.replace(' ', "_").replace('°', "")))?;
     Ok(())
 }
 
@@ -152,16 +157,17 @@ fn main() -> Outcome {
     // Isotropic to a thousandth: the closed form needs distinct roots.
     let steel = Lamina { e1: 200e9, e2: 200.2e9, g12: 200e9 / 2.6, nu12: 0.3 };
     println!("Δx = {} mm, m = {M}", dx * 1e3);
-    head();
-    crack("isotropic", &steel, 0.0, dx, limit)?;
+    let title = "Static crack and hole in infinite plates";
+    let mut table = Measures::new(title, &effort.command("static_closed_forms"));
+    let size = (dx, limit);
+    crack(("isotropic", &steel), 0.0, size, &mut table)?;
     for degrees in
         effort.choose(vec![30.0], vec![0.0, 30.0, 90.0], vec![0.0, 30.0, 45.0, 60.0, 90.0])
     {
-        crack("graphite-epoxy", &GRAPHITE_EPOXY, degrees, dx, limit)?;
+        crack(("graphite–epoxy", &GRAPHITE_EPOXY), degrees, size, &mut table)?;
     }
-    hole("isotropic", &steel, "circle_isotropic", 0.0, dx, limit)?;
-    hole("glass-epoxy 0°", &GLASS_EPOXY, "circle_phi0", 0.0, dx, limit)?;
-    hole("glass-epoxy -25°", &GLASS_EPOXY, "circle_phi-25", -25.0, dx, limit)?;
-    println!("pictures are in out/static_closed_forms");
-    Ok(())
+    hole(("isotropic", &steel, "circle_isotropic"), 0.0, size, &mut table)?;
+    hole(("glass–epoxy", &GLASS_EPOXY, "circle_phi0"), 0.0, size, &mut table)?;
+    hole(("glass–epoxy", &GLASS_EPOXY, "circle_phi-25"), -25.0, size, &mut table)?;
+    Ok(conclude(&table, effort, FOLDER, &[])?)
 }

@@ -1,10 +1,15 @@
-//! What studies share: how large a run is, and pictures of damage.
+//! What studies share: how large a run is, its table of measures, and pictures of damage.
 
 use nalgebra::SVector;
+use pd_core::statics::Progress;
 use pd_core::{Body, DamagePolicy, Error, Family, Material, Real, Result};
 use pd_damage::Measures;
 use pd_io::{ColourMap, FieldMap};
+use std::io::Write as _;
 use std::path::Path;
+
+/// The result of a study, which may end by errors of several kinds.
+pub type Outcome<X = ()> = std::result::Result<X, Box<dyn std::error::Error>>;
 
 /// How much work a study takes, from its arguments: `--short` (seconds), nothing (about a minute
 /// on two cores), `--full` (the resolution of the paper).
@@ -60,6 +65,27 @@ pub fn conclude(table: &Measures, effort: Effort, folder: &str, known: &[&str]) 
         return Err(Error::Other(format!("HARD measures miss: {}", misses.join("; "))));
     }
     Ok(())
+}
+
+/// A line on the terminal that tells how far a [static solution](pd_core::Statics::solve_watched)
+/// is; it ends with the solution.
+pub fn watch(label: &str) -> impl FnMut(Progress) + '_ {
+    struct Line;
+    impl Drop for Line {
+        fn drop(&mut self) {
+            let _ = writeln!(std::io::stderr());
+        }
+    }
+    let line = Line;
+    move |Progress { iteration, residual }| {
+        let _ = &line;
+        if iteration.is_multiple_of(50) {
+            let _ = write!(
+                std::io::stderr(),
+                "\r{label}: iteration {iteration}, residual {residual:.1e}    "
+            );
+        }
+    }
 }
 
 /// Damage index of every node.

@@ -1,12 +1,11 @@
 //! The energy that opening a beam costs (Willberg §5A) against the one put in.
 
 use super::{Scene, influence, quadrature};
-use crate::common::{Effort, Outcome};
 use pd_testkit::beam::{Beam, MM};
 use pd_testkit::clock::seconds;
 use peridynamics::models::elasticity::catalogue::willberg_beam;
 use peridynamics::prelude::*;
-use peridynamics::study::damage;
+use peridynamics::study::{Effort, Outcome, damage};
 use peridynamics::trade::{Point, Record};
 
 /// Fracture energy put in, in J/m².

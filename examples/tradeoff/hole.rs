@@ -1,7 +1,7 @@
 //! The stress around a hole against Lekhnitskii's closed form.
 
 use super::{Scene, influence, quadrature};
-use crate::common::{Effort, Outcome};
+use peridynamics::study::{Effort, Outcome};
 use pd_testkit::clock::seconds;
 use pd_testkit::fem::table;
 use pd_testkit::infinite_plate::{InfinitePlate, Square, hoop};

@@ -1,7 +1,7 @@
 //! Dynamic stress intensity of an edge crack (Hattori §6.1) against finite elements.
 
 use super::{Scene, influence, quadrature};
-use crate::common::{Effort, Outcome};
+use peridynamics::study::{Effort, Outcome};
 use pd_testkit::clock::seconds;
 use pd_testkit::dsif::errors;
 use pd_testkit::hattori61::EdgeCrack;

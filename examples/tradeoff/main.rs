@@ -13,14 +13,12 @@
 //! soon as it is done, and a stopped study goes on from there: remove the files after a change of the
 //! code. Plots go beside them.
 mod beam;
-#[path = "../common/mod.rs"]
-mod common;
 mod hole;
 mod intensity;
 mod plate;
 mod wave;
 
-use common::{Effort, Outcome};
+use peridynamics::study::{Effort, Outcome};
 use pd_testkit::clock::{machine, seconds};
 use peridynamics::prelude::*;
 use peridynamics::trade::{Point, Record, Trade, Worth};

@@ -1,7 +1,7 @@
 //! The anisotropic plate of Scabbia §6.3 against finite elements.
 
 use super::{Scene, influence, quadrature};
-use crate::common::{Effort, Outcome};
+use peridynamics::study::{Effort, Outcome};
 use pd_testkit::clock::seconds;
 use pd_testkit::fem::Displacements;
 use pd_testkit::scabbia63::Plate;

@@ -1,7 +1,7 @@
 //! A plane wave in a carbon ply against Christoffel's.
 
 use super::{Scene, influence, quadrature};
-use crate::common::{Effort, Outcome};
+use peridynamics::study::{Effort, Outcome};
 use pd_testkit::clock::seconds;
 use pd_testkit::plane_wave::PlaneWave;
 use peridynamics::models::elasticity::catalogue::{

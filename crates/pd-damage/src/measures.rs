@@ -15,11 +15,11 @@ pub enum Demand {
 
 #[derive(Debug, Clone, PartialEq)]
 struct Row {
-    demand: Demand,
     measure: String,
     reference: String,
     got: String,
-    pass: bool,
+    /// What hangs on it and whether it holds; nothing for a figure that is only told.
+    verdict: Option<(Demand, bool)>,
 }
 
 /// Measures of one run: printed as `measure | reference | got | pass`, and written as Markdown for
@@ -29,9 +29,11 @@ struct Row {
 /// use pd_damage::Measures;
 /// let mut measures = Measures::new("plate", "cargo run --release --example plate");
 /// measures.hard_near("line angle [°]", 44.1, 45.0, 3.0).soft_most("mirror error", 0.07, 0.05);
+/// measures.compared("force [N]", 103.0, 100.0);
 /// assert!(measures.passed());
 /// assert!(measures.to_string().contains("line angle [°] (HARD) | 45 ± 3 | 44.10 | yes"));
 /// assert!(measures.to_string().contains("mirror error (SOFT) | ≤ 0.05 | 0.07000 | no"));
+/// assert!(measures.to_string().contains("force [N] | 100.0 | 103.0 (+3.0 %) | –"));
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measures {
@@ -55,9 +57,8 @@ fn digits(x: f64) -> String {
 
 /// A bound without the noise of its last digits.
 fn bound(x: f64) -> String {
-    let size = if x == 0.0 { 0.0 } else { x.abs().log10().floor() };
-    let unit = 10_f64.powf(size - 5.0);
-    format!("{}", ((x / unit).round() * unit * 1e9).round() / 1e9)
+    let clean: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    if clean == 0.0 || clean.abs() >= 1e-3 { format!("{clean}") } else { format!("{clean:e}") }
 }
 
 impl Measures {
@@ -74,15 +75,32 @@ impl Measures {
         got: &str,
         pass: bool,
     ) -> &mut Self {
-        let own = |text: &str| text.replace('|', "¦");
-        self.rows.push(Row {
-            demand,
-            measure: own(measure),
-            reference: own(reference),
-            got: own(got),
-            pass,
-        });
+        self.row(measure, reference, got, Some((demand, pass)))
+    }
+    fn row(
+        &mut self,
+        measure: &str,
+        reference: &str,
+        got: &str,
+        verdict: Option<(Demand, bool)>,
+    ) -> &mut Self {
+        let [measure, reference, got] = [measure, reference, got].map(|t| t.replace('|', "¦"));
+        self.rows.push(Row { measure, reference, got, verdict });
         self
+    }
+    /// A figure that nothing hangs on.
+    pub fn told(&mut self, measure: &str, got: f64) -> &mut Self {
+        self.row(measure, "–", &digits(got), None)
+    }
+    /// The same in words, beside a reference.
+    pub fn told_in_words(&mut self, measure: &str, reference: &str, got: &str) -> &mut Self {
+        self.row(measure, reference, got, None)
+    }
+    /// A figure beside one it may be compared with, and by how much it is larger.
+    pub fn compared(&mut self, measure: &str, got: f64, reference: f64) -> &mut Self {
+        let more = 100.0 * (got - reference) / reference.abs();
+        let got = format!("{} ({more:+.1} %)", digits(got));
+        self.row(measure, &digits(reference), &got, None)
     }
     /// A measure that must lie within `tolerance` of `reference`. NaN (nothing to measure) fails.
     pub fn hard_near(&mut self, measure: &str, got: f64, reference: f64, tol: f64) -> &mut Self {
@@ -126,7 +144,7 @@ impl Measures {
     }
     /// Names of the HARD measures that do not hold.
     pub fn misses(&self) -> impl Iterator<Item = &str> {
-        let missed = |row: &&Row| !row.pass && row.demand == Demand::Hard;
+        let missed = |row: &&Row| row.verdict == Some((Demand::Hard, false));
         self.rows.iter().filter(missed).map(|row| row.measure.as_str())
     }
     /// The measures of another table, after these.
@@ -139,7 +157,7 @@ impl Measures {
         let mut text = format!("## {}\n\n`{}`\n\n", self.title, self.command);
         text += "| measure | reference | got | pass |\n|---|---|---|---|\n";
         for row in &self.rows {
-            let pass = if row.pass { "yes" } else { "**no**" };
+            let pass = row.pass("**no**");
             text += &format!("| {} | {} | {} | {pass} |\n", row.name(), row.reference, row.got);
         }
         text
@@ -159,8 +177,14 @@ impl Measures {
 
 impl Row {
     fn name(&self) -> String {
-        let demand = if self.demand == Demand::Hard { "HARD" } else { "SOFT" };
-        format!("{} ({demand})", self.measure)
+        match self.verdict {
+            Some((Demand::Hard, _)) => format!("{} (HARD)", self.measure),
+            Some((Demand::Soft, _)) => format!("{} (SOFT)", self.measure),
+            None => self.measure.clone(),
+        }
+    }
+    fn pass(&self, miss: &'static str) -> &'static str {
+        self.verdict.map_or("–", |(_, pass)| if pass { "yes" } else { miss })
     }
 }
 
@@ -168,7 +192,7 @@ impl fmt::Display for Measures {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}\nmeasure | reference | got | pass", self.title)?;
         for row in &self.rows {
-            let pass = if row.pass { "yes" } else { "no" };
+            let pass = row.pass("no");
             writeln!(f, "{} | {} | {} | {pass}", row.name(), row.reference, row.got)?;
         }
         Ok(())
