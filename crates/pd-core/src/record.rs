@@ -118,10 +118,12 @@ impl<T: Real> Record<T> for T {
     }
     #[inline(always)]
     fn write_lanes<const N: usize>(lanes: &[T; N], planes: &mut &mut [T], i: usize, mask: u32) {
-        let slots = &mut planes[i..i + N];
+        // Blended beside the plane: a choice of what to write in place becomes a branch per lane.
+        let mut blend = T::read_lanes::<N>(planes, i);
         for l in 0..N {
-            slots[l] = if mask >> l & 1 == 1 { lanes[l] } else { slots[l] };
+            blend[l] = if mask >> l & 1 == 1 { lanes[l] } else { blend[l] };
         }
+        planes[i..i + N].copy_from_slice(&blend);
     }
 }
 
