@@ -114,7 +114,8 @@ fn main() -> Outcome {
     };
     let mut plot = LinePlot::new("hoop stress on the hole", "angle from x [°]", "stress [MPa]")
         .line("finite elements", &line(hoop_fem));
-    let mut table = Measures::new("Pulled plate with a hole (Scabbia §6.4)", &effort.command("scabbia_hole"));
+    let mut table =
+        Measures::new("Pulled plate with a hole (Scabbia §6.4)", &effort.command("scabbia_hole"));
     for (name, solution) in &runs {
         let what = |what: &str| format!("{name}: {what}");
         if at_paper {
@@ -123,9 +124,7 @@ fn main() -> Outcome {
         let limit = if at_paper { 0.03 } else { 0.15 };
         let raw = fem.differences(&solution.grid, |i| solution.u[i]);
         let worst = |d: &[f64]| d.iter().copied().fold(0.0, f64::max);
-        let at = |x: &SVector<f64, 2>| {
-            fem::interpolate(&solution.grid, |i| solution.u[i], x)
-        };
+        let at = |x: &SVector<f64, 2>| fem::interpolate(&solution.grid, |i| solution.u[i], x);
         let offset = fem.points.iter().zip(&fem.u).map(|(x, u)| at(x).y - u.y).sum::<f64>()
             / fem.points.len() as f64;
         let shift = SVector::from([0.0, offset]);

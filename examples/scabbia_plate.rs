@@ -58,9 +58,7 @@ fn draw(file: &str, title: &str, solution: &Solution, dx: f64) -> Outcome {
     let places: Vec<_> =
         inside.iter().map(|&i| solution.grid.position(i) + SCALE * solution.u[i]).collect();
     let size: Vec<f64> = inside.iter().map(|&i| solution.u[i].norm()).collect();
-    FieldMap::new(&places, 1.15 * dx, &size)
-        .title(title)
-        .write(format!("{FOLDER}/{file}"))?;
+    FieldMap::new(&places, 1.15 * dx, &size).title(title).write(format!("{FOLDER}/{file}"))?;
     Ok(())
 }
 
@@ -92,7 +90,10 @@ fn main() -> Outcome {
     runs.push((name, solve(name, corrected, plate, dx)?));
 
     let at_paper = dx == 1e-3;
-    let mut table = Measures::new("Plate under traction on half an edge (Scabbia §6.3)", &effort.command("scabbia_plate"));
+    let mut table = Measures::new(
+        "Plate under traction on half an edge (Scabbia §6.3)",
+        &effort.command("scabbia_plate"),
+    );
     for (name, solution) in &runs {
         let edge = fem.differences(&solution.grid, |i| solution.u[i]);
         let layer = fem_layer.differences(&solution.grid, |i| solution.u[i]);

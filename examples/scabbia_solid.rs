@@ -68,7 +68,8 @@ fn main() -> Outcome {
         runs.push(("polynomial, half spacing", 5e-3, solve("half spacing", polynomial, 5e-3)?));
         runs.push(("positive split, half spacing", 5e-3, solve("split, half", split, 5e-3)?));
     }
-    let mut table = Measures::new("Bar of a monoclinic solid (Scabbia §6.5)", &effort.command("scabbia_solid"));
+    let mut table =
+        Measures::new("Bar of a monoclinic solid (Scabbia §6.5)", &effort.command("scabbia_solid"));
     for (name, dx, solution) in &runs {
         let differences = fem.differences(&solution.grid, |i| solution.u[i]);
         let worst = differences.iter().copied().fold(0.0, f64::max);

@@ -1,13 +1,13 @@
 //! The stress around a hole against Lekhnitskii's closed form.
 
 use super::{Scene, influence, quadrature};
-use peridynamics::study::{Effort, Outcome};
 use pd_testkit::clock::seconds;
 use pd_testkit::fem::table;
 use pd_testkit::infinite_plate::{InfinitePlate, Square, hoop};
 use peridynamics::models::OnFamily;
 use peridynamics::models::elasticity::catalogue::GLASS_EPOXY;
 use peridynamics::prelude::*;
+use peridynamics::study::{Effort, Outcome};
 use peridynamics::trade::{Point, Record};
 
 /// Radius of the hole in metres.

@@ -1,13 +1,13 @@
 //! Dynamic stress intensity of an edge crack (Hattori §6.1) against finite elements.
 
 use super::{Scene, influence, quadrature};
-use peridynamics::study::{Effort, Outcome};
 use pd_testkit::clock::seconds;
 use pd_testkit::dsif::errors;
 use pd_testkit::hattori61::EdgeCrack;
 use peridynamics::models::NoControl;
 use peridynamics::models::elasticity::catalogue::GRAPHITE_EPOXY_DENSITY as DENSITY;
 use peridynamics::prelude::*;
+use peridynamics::study::{Effort, Outcome};
 use peridynamics::trade::{Point, Record};
 
 pub fn scene(effort: Effort) -> Outcome<Scene> {

@@ -18,9 +18,9 @@ mod intensity;
 mod plate;
 mod wave;
 
-use peridynamics::study::{Effort, Outcome};
 use pd_testkit::clock::{machine, seconds};
 use peridynamics::prelude::*;
+use peridynamics::study::{Effort, Outcome};
 use peridynamics::trade::{Point, Record, Trade, Worth};
 use std::fmt::Write as _;
 

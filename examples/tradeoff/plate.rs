@@ -1,13 +1,13 @@
 //! The anisotropic plate of Scabbia §6.3 against finite elements.
 
 use super::{Scene, influence, quadrature};
-use peridynamics::study::{Effort, Outcome};
 use pd_testkit::clock::seconds;
 use pd_testkit::fem::Displacements;
 use pd_testkit::scabbia63::Plate;
 use peridynamics::models::OnFamily;
 use peridynamics::models::elasticity::catalogue::GLASS_EPOXY;
 use peridynamics::prelude::*;
+use peridynamics::study::{Effort, Outcome};
 use peridynamics::trade::{Point, Record};
 
 pub fn scene(effort: Effort) -> Outcome<Scene> {

@@ -1,13 +1,13 @@
 //! A plane wave in a carbon ply against Christoffel's.
 
 use super::{Scene, influence, quadrature};
-use peridynamics::study::{Effort, Outcome};
 use pd_testkit::clock::seconds;
 use pd_testkit::plane_wave::PlaneWave;
 use peridynamics::models::elasticity::catalogue::{
     GRAPHITE_EPOXY, GRAPHITE_EPOXY_DENSITY as DENSITY,
 };
 use peridynamics::prelude::*;
+use peridynamics::study::{Effort, Outcome};
 use peridynamics::trade::{Point, Record};
 
 const LENGTH: f64 = 16e-3;
