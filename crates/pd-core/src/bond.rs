@@ -16,8 +16,6 @@ pub struct Bond<T, const D: usize> {
     pub eta: SVector<T, D>,
     /// 1/|ξ|².
     inverse_square: T,
-    /// 2ξ/|ξ|².
-    slope: SVector<T, D>,
     arithmetic: Arithmetic,
 }
 
@@ -49,7 +47,7 @@ impl<T: Real, const D: usize> Bond<T, D> {
     #[inline(always)]
     pub fn new(xi: SVector<T, D>, eta: SVector<T, D>) -> Self {
         let arithmetic = Arithmetic { small: false, fused: false };
-        Self::of_kernel(xi, eta, xi.dot(&xi).recip(), arithmetic)
+        Self { xi, eta, inverse_square: xi.dot(&xi).recip(), arithmetic }
     }
     /// A bond of a kernel, which knows 1/|ξ|² and what its processor can do.
     #[inline(always)]
@@ -59,23 +57,7 @@ impl<T: Real, const D: usize> Bond<T, D> {
         inverse_square: T,
         arithmetic: Arithmetic,
     ) -> Self {
-        let slope = Self::slope(&xi, inverse_square);
-        Self { xi, eta, inverse_square, slope, arithmetic }
-    }
-    /// As [`of_kernel`](Self::of_kernel), for a kernel that knows the [`slope`](Self::slope) too.
-    #[inline(always)]
-    pub(crate) fn of_table(
-        xi: SVector<T, D>,
-        eta: SVector<T, D>,
-        (inverse_square, slope): (T, SVector<T, D>),
-        arithmetic: Arithmetic,
-    ) -> Self {
-        Self { xi, eta, inverse_square, slope, arithmetic }
-    }
-    /// 2ξ/|ξ|², the derivative of t by η at rest.
-    #[inline(always)]
-    pub(crate) fn slope(xi: &SVector<T, D>, inverse_square: T) -> SVector<T, D> {
-        xi * (inverse_square + inverse_square)
+        Self { xi, eta, inverse_square, arithmetic }
     }
     /// Deformed bond Y = ξ + η.
     #[inline(always)]
@@ -85,7 +67,7 @@ impl<T: Real, const D: usize> Bond<T, D> {
     /// The same bond seen from its other end.
     #[inline(always)]
     pub fn reversed(&self) -> Self {
-        Self { xi: -self.xi, eta: -self.eta, slope: -self.slope, ..*self }
+        Self { xi: -self.xi, eta: -self.eta, ..*self }
     }
     /// 1/|ξ|².
     #[inline(always)]
@@ -117,40 +99,22 @@ impl<T: Real, const D: usize> Bond<T, D> {
     /// t = |Y|²/|ξ|² − 1 without cancellation, η·(η + 2ξ)/|ξ|².
     #[inline(always)]
     pub fn square_strain(&self) -> T {
-        let inner = |d: usize| self.fma(self.eta[d], self.inverse_square, self.slope[d]);
-        let mut t = self.eta[0] * inner(0);
-        for d in 1..D {
-            t = self.fma(self.eta[d], inner(d), t);
-        }
-        t
+        self.dot(&self.eta, &(self.deformed() + self.xi)) * self.inverse_square
     }
-    /// t p(t) of a polynomial p given from its constant on. By pairs of coefficients, so that a
-    /// processor has two things to do at a time: p = (c₀ + c₁t) + t²((c₂ + c₃t) + t²(…)).
-    #[inline(always)]
-    fn times_polynomial(&self, t: T, coefficients: &[T]) -> T {
-        let square = t * t;
-        let mut pairs = coefficients.chunks(2).rev().map(|pair| match *pair {
-            [even, odd] => self.fma(odd, t, even),
-            [even] => even,
-            _ => T::zero(),
-        });
-        let mut p = pairs.next().unwrap_or(T::zero());
-        for pair in pairs {
-            p = self.fma(p, square, pair);
-        }
-        t * p
-    }
-    /// 1 − 1/λ and λ − 1, each to less than two units in the last place, and 1/λ.
+    /// 1 − 1/λ to less than two, λ − 1 to less than three units in the last place, and 1/λ.
     ///
-    /// For small |t|, g = 1 − (1+t)^(−½) = t p(t) and λ − 1 = (1+t)^½ − 1 = t q(t) with the
-    /// polynomials [`Real::STRETCH`]; else g = t/(λ(1+λ)) and λ − 1 = t/(1+λ) with λ = |Y|/|ξ|.
+    /// For small |t|, g = 1 − (1+t)^(−½) = t p(t) with the polynomial [`Real::STRETCH`] and
+    /// λ − 1 = t − g(1+t); else g = t/(λ(1+λ)) and λ − 1 = t/(1+λ) with λ = |Y|/|ξ|.
     #[inline(always)]
     pub fn stretch(&self) -> Stretch<T> {
         let t = self.square_strain();
-        let [p, q] = T::STRETCH;
-        let g = self.times_polynomial(t, p);
-        let strain = self.times_polynomial(t, q);
-        let near = Stretch { g, strain, inverse: T::one() - g };
+        let last = T::STRETCH.len() - 1;
+        let mut p = T::STRETCH[last];
+        for k in (0..last).rev() {
+            p = self.fma(p, t, T::STRETCH[k]);
+        }
+        let g = t * p;
+        let near = Stretch { g, strain: self.fma(-g, T::one() + t, t), inverse: T::one() - g };
         if self.arithmetic.small {
             return near;
         }

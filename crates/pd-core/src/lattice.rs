@@ -44,20 +44,12 @@ struct Offset<T, const D: usize> {
     site: isize,
     cell: [isize; D],
     xi: SVector<T, D>,
-    /// 1/|ξ|² and [`Bond::slope`].
+    /// 1/|ξ|².
     inverse_square: T,
-    slope: SVector<T, D>,
     xi64: SVector<f64, D>,
     /// β V in Δx^D.
     volume: T,
     volume64: f64,
-}
-
-impl<T: Real, const D: usize> Offset<T, D> {
-    #[inline(always)]
-    fn bond(&self, eta: SVector<T, D>, arithmetic: Arithmetic) -> Bond<T, D> {
-        Bond::of_table(self.xi, eta, (self.inverse_square, self.slope), arithmetic)
-    }
 }
 
 /// A uniform lattice with one offset table (see the module's head).
@@ -133,13 +125,11 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             let beta = quadrature.weight(&xi64, &cell, delta);
             if beta > 0.0 {
                 let volume64 = beta * cell_volume;
-                let (xi, inverse_square) = (xi64.map(T::of), T::of(1.0 / xi64.norm_squared()));
                 offsets.push(Offset {
                     site: (0..D).map(|d| step[d] * strides[d] as isize).sum(),
                     cell: step,
-                    xi,
-                    inverse_square,
-                    slope: Bond::slope(&xi, inverse_square),
+                    xi: xi64.map(T::of),
+                    inverse_square: T::of(1.0 / xi64.norm_squared()),
                     xi64,
                     volume: T::of(volume64),
                     volume64,
@@ -359,7 +349,7 @@ fn add_lanes<'a, T, const D: usize, Kn, I, J, const N: usize, const MASKED: bool
     for l in 0..N {
         let on = !MASKED || there >> l & 1 == 1;
         let eta = relative(near, &far, l);
-        let bond = offset.bond(eta, arithmetic);
+        let bond = Bond::of_kernel(offset.xi, eta, offset.inverse_square, arithmetic);
         let nodes = [I::lane::<N>(own, l), I::lane::<N>(&other, l)];
         let old = <Kn::Sum as Record<T>>::get::<N>(sums, l);
         let mut sum = old;
@@ -368,9 +358,7 @@ fn add_lanes<'a, T, const D: usize, Kn, I, J, const N: usize, const MASKED: bool
         if Kn::TRACK {
             let t = bond.square_strain();
             high[l] = if on & (t > high[l]) { t } else { high[l] };
-            if Kn::STRETCH {
-                low[l] = if on & (t < low[l]) { t } else { low[l] };
-            }
+            low[l] = if on & (t < low[l]) { t } else { low[l] };
         }
     }
 }
@@ -625,7 +613,7 @@ where
             let pair = Pair { constants: [k, k], volumes: [T::one(); 2] };
             *index = std::array::from_fn(|l| {
                 let eta = relative(&near, &far, l);
-                let bond = offset.bond(eta, arithmetic);
+                let bond = Bond::of_kernel(offset.xi, eta, offset.inverse_square, arithmetic);
                 let (own, other) =
                     (I::lane::<LANES>(&own_block, l), I::lane::<LANES>(&other_block, l));
                 job.test.index(&bond, pair, [&own, &other])

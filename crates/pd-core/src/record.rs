@@ -118,12 +118,10 @@ impl<T: Real> Record<T> for T {
     }
     #[inline(always)]
     fn write_lanes<const N: usize>(lanes: &[T; N], planes: &mut &mut [T], i: usize, mask: u32) {
-        // Blended beside the plane: a choice of what to write in place becomes a branch per lane.
-        let mut blend = T::read_lanes::<N>(planes, i);
+        let slots = &mut planes[i..i + N];
         for l in 0..N {
-            blend[l] = if mask >> l & 1 == 1 { lanes[l] } else { blend[l] };
+            slots[l] = if mask >> l & 1 == 1 { lanes[l] } else { slots[l] };
         }
-        planes[i..i + N].copy_from_slice(&blend);
     }
 }
 
