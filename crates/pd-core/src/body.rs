@@ -5,7 +5,7 @@ use crate::damage::{Check, DamagePolicy};
 use crate::family::{BondKernel, Family, Pair, Tally, Visit};
 use crate::field::Field;
 use crate::material::{Material, StrainEnergy, StressState};
-use crate::parallel::{axpy, map_pieces, sum_in_order, zip_weighted};
+use crate::parallel::{axpy, axpy_weighted, map_pieces, sum_in_order};
 use crate::record::Record;
 use crate::state::{StateReader, StateWriter, unlike};
 use crate::{Error, Real, Result};
@@ -1006,11 +1006,7 @@ where
                 axpy(self.v.as_mut_slice(), dt * *w, self.force.as_slice());
             }
             InverseMass::PerSite(w) => {
-                zip_weighted(self.v.as_mut_slice(), self.force.as_slice(), w, &|v, f, w| {
-                    for ((v, f), w) in v.iter_mut().zip(f).zip(w) {
-                        *v += dt * *w * *f;
-                    }
-                });
+                axpy_weighted(self.v.as_mut_slice(), dt, w, self.force.as_slice());
             }
         }
     }

@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 /// Numbers that one task works on where each costs little.
-pub(crate) const CHUNK: usize = 8192;
+const CHUNK: usize = 8192;
 
 /// Halves a range of sites, at multiples of `grain`, until its pieces have at most `most`, and the
 /// planes of `out` along with it; returns the largest of what `work` says of the pieces.
@@ -73,17 +73,15 @@ pub(crate) fn zip_pieces<T: Real>(y: &mut [T], x: &[T], work: &(dyn Fn(&mut [T],
     y.par_chunks_mut(CHUNK).zip(x.par_chunks(CHUNK)).for_each(|(y, x)| work(y, x));
 }
 
-/// As [`zip_pieces`], for planes of as many numbers as there are weights.
-pub(crate) fn zip_weighted<T: Real>(
-    y: &mut [T],
-    x: &[T],
-    weights: &[T],
-    work: &(dyn Fn(&mut [T], &[T], &[T]) + Sync),
-) {
-    let sites = weights.len();
-    for (y, x) in y.chunks_mut(sites).zip(x.chunks(sites)) {
+/// y += a w x, for planes of as many numbers as there are weights w.
+pub(crate) fn axpy_weighted<T: Real>(y: &mut [T], a: T, w: &[T], x: &[T]) {
+    for (y, x) in y.chunks_mut(w.len()).zip(x.chunks(w.len())) {
         let parts = y.par_chunks_mut(CHUNK).zip(x.par_chunks(CHUNK));
-        parts.zip(weights.par_chunks(CHUNK)).for_each(|((y, x), weights)| work(y, x, weights));
+        parts.zip(w.par_chunks(CHUNK)).for_each(|((y, x), w)| {
+            for ((y, x), w) in y.iter_mut().zip(x).zip(w) {
+                *y += a * *w * *x;
+            }
+        });
     }
 }
 

@@ -17,7 +17,7 @@
 use crate::body::Dynamics;
 use crate::field::{Field, map_sites};
 use crate::loads::{Bound, Loads};
-use crate::parallel::{axpy, sum_in_order, zip_pieces, zip_weighted};
+use crate::parallel::{axpy, axpy_weighted, sum_in_order, zip_pieces};
 use crate::time_step::softest_wave;
 use crate::{Error, Real, Result};
 use nalgebra::{DMatrix, SMatrix, SVector};
@@ -216,13 +216,7 @@ impl<T: Real> Operator<T> {
 
     /// out = factor · V · force on the free components, 0 on the others.
     fn weigh<const D: usize>(&self, force: &Vectors<T, D>, factor: f64, out: &mut Vectors<T, D>) {
-        let factor = T::of(factor);
-        let weights = &self.weights;
-        zip_weighted(out.as_mut_slice(), force.as_slice(), weights, &|out, force, weights| {
-            for ((out, f), w) in out.iter_mut().zip(force).zip(weights) {
-                *out += factor * *w * *f;
-            }
-        });
+        axpy_weighted(out.as_mut_slice(), T::of(factor), &self.weights, force.as_slice());
         self.held.iter().for_each(|&i| out.as_mut_slice()[i] = T::zero());
     }
 
