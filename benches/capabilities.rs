@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench capabilities` prints the table and writes `docs/capabilities.md`. Off and on are
 //! timed in turns, so that both see the same machine; the first row is one body twice and shows what
-//! is noise. `tests/no_overhead.rs` asserts the sizes.
+//! is noise. `tests/materials/no_overhead.rs` asserts the sizes.
 
 use pd_testkit::clock::{machine, seconds};
 use peridynamics::prelude::*;
@@ -234,7 +234,7 @@ fn main() {
          forces of a step, processor time of one thread, medians of {TURNS} turns of off and on. Ratios \
          are medians of the ratios within a turn; the first row is one body twice. Bytes per bond are \
          constants and bits per undirected bond, a part of the bytes per node. What is off has no array \
-         and no pass: `tests/no_overhead.rs` asserts it to the byte.\n\n| capability | off | on | ns per \
+         and no pass: `tests/materials/no_overhead.rs` asserts it to the byte.\n\n| capability | off | on | ns per \
          node-step, off | on | ratio | bytes per node, off | on | bytes per bond, off | on |\n| --- | \
          --- | --- | --- | --- | --- | --- | --- | --- | --- |\n{rows}",
         machine()

@@ -12,7 +12,7 @@
 //!
 //! The numbers of Table 3 and the curves are lost in the text at hand. The reference are finite
 //! elements of our own (`pd_testkit::quads`, squares of 0.1 mm, which meet the histories of an
-//! independent code for §6.1: `cargo test --test finite_elements`), with the circles made of squares
+//! independent code for §6.1: `cargo test --test materials finite_elements`), with the circles made of squares
 //! as those of the bodies are. Pictures and the table go to `out/hattori_inclusion/`; `--full` takes
 //! the paper's 400 × 800 nodes.
 

@@ -1,5 +1,5 @@
 //! Families that are almost singular, collinear, of one bond, or empty; nodes that lose every bond
-//! in mid-run. `crates/pd-core/tests/shape_conditioning.rs` has the shape tensors alone.
+//! in mid-run. `crates/pd-core/tests/parts/shape_conditioning.rs` has the shape tensors alone.
 use super::*;
 use pd_testkit::specimen::{CRITERIA, Criterion};
 use peridynamics::models::Error as ModelError;

@@ -1,4 +1,4 @@
-//! 0.99 of the critical step is stable, 1.05 of it is detected: every material. `tests/energy.rs`
+//! 0.99 of the critical step is stable, 1.05 of it is detected: every material. `tests/materials/energy.rs`
 //! has the drift of the energy over 10⁵ steps for both integrators.
 use super::*;
 

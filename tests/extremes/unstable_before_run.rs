@@ -1,5 +1,5 @@
 //! What grows or costs no energy is known before a run, for any stiffness, from the symbol.
-//! `tests/unstable_body.rs` has what a run says.
+//! `tests/materials/unstable_body.rs` has what a run says.
 use super::*;
 use pd_testkit::generate::plane_stiffnesses;
 use peridynamics::check::{Conditions, Property, check_material};

@@ -786,7 +786,7 @@ pub trait Dynamics<T: Real, const D: usize> {
 /// follows. With D(u) the energy that goes with the bonds, the motion misses the work ½D'(u₁)Δu of
 /// that half kick, so breaking took D(u₁) − ½D'(u₁)Δu; for a quadratic D that is
 /// 2D(u₀ + ½Δu) − ½D(u₀) − ½D(u₁). Counting D(u₁) would be wrong by the order of Δt (8 % of the
-/// work in `tests/energy_of_fracture.rs`).
+/// work in `tests/fracture/energy_of_fracture.rs`).
 pub(crate) struct Dissipation<T, const D: usize, F, M>
 where
     T: Real,

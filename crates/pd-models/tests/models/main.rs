@@ -1,0 +1,22 @@
+//! Elasticity and symbols of the models, and the errata of the papers: one file per property, one
+//! program.
+mod averages;
+mod common;
+mod elastic_extremes;
+mod elastic_moduli;
+mod elastic_rotation;
+mod elastic_stiffness;
+mod elastic_stroh;
+mod elastic_voigt;
+mod elastic_waves;
+mod errata_hattori;
+mod errata_scabbia;
+mod errata_willberg;
+mod errata_zhao;
+mod stroh_opening_fit;
+mod symbol_bond_associated;
+mod symbol_bond_based;
+mod symbol_correspondence;
+mod symbol_polynomial;
+mod symbol_split;
+mod symbol_time_step;

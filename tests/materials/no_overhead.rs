@@ -1,0 +1,220 @@
+//! What a scene does not need is not there.
+use peridynamics::prelude::*;
+
+#[test]
+fn a_scene_holds_only_what_it_needs() {
+    let grid = Grid::new(&Cuboid::centred([0.064, 0.064]).expect("box"), 1e-3).expect("grid");
+    let family = Lattice::<f64, 2>::new(&grid, Horizon::Cells(3.0), Quadrature::None);
+    let family = family.expect("family");
+    let moduli = Isotropic::from_young_poisson(7e10, 1.0 / 3.0).expect("moduli");
+    let mode = PlaneMode::PlaneStress;
+    let pmb = || Pmb::plane(&moduli, mode, 1e3, InfluenceFunction::Constant).expect("material");
+    let whole = Body::new(family.clone(), Ordinary::new(pmb()), NoDamage).expect("body").memory();
+    assert_eq!(whole.bond_bits, 0);
+    assert_eq!(whole.criterion, 0);
+    assert_eq!(whole.node_constants, 0);
+    assert_eq!(whole.node_states, 0);
+    assert_eq!(whole.density, 0);
+
+    let stretch = CriticalStretch::new(0.01).expect("criterion");
+    let breaking = Body::new(family.clone(), Ordinary::new(pmb()), Breaking::new(stretch));
+    let memory = breaking.expect("body").memory();
+    assert_eq!(memory.criterion, 0);
+    let sites = Family::<f64, 2>::sites(&family);
+    // 64 + 3 sites a row, padded to 72, a block before the first, and up to a page.
+    assert!(sites <= 72 * 64 + 32 + 4096 / 8, "{sites} sites");
+    // One bit per site and offset of the half table, and two bytes of marks per eight sites.
+    let half = family.offsets() / 2;
+    assert!(memory.bond_bits <= sites * half / 8 + sites / 4, "{}", memory.bond_bits);
+
+    let bits = Body::new(family, Ordinary::new(pmb()), Precracked::default()).expect("body");
+    assert!(bits.memory().bond_bits > 0);
+}
+
+/// Bits of damage per undirected bond, and bytes of the family and of bond constants.
+fn sizes<T: Real, F: Family<T, 3>>(family: F) -> (f64, usize, usize) {
+    let moduli = Isotropic::from_young_poisson(7e10, 0.2).expect("moduli");
+    let solid = LinearSolid::solid(&moduli, 1e3, InfluenceFunction::Constant).expect("material");
+    let bonds = family.bonds() as f64;
+    let body = Body::new(family, Ordinary::new(solid), Precracked::default()).expect("body");
+    let memory = body.memory();
+    (8.0 * memory.bond_bits as f64 / bonds, memory.family, memory.bond_constants)
+}
+
+fn cube(n: f64) -> Grid<3> {
+    Grid::new(&Cuboid::centred([n; 3]).expect("box"), 1.0).expect("grid")
+}
+
+/// A lattice holds one table of offsets, whatever its size, and one bit per site and offset of half
+/// the table: one per undirected bond of the bulk. Sites that pad rows and bonds missing at the
+/// surface have bits too: little in a large body. Marks of nodes that lost a bond are two bits a
+/// site.
+#[test]
+fn a_lattice_holds_one_table_and_a_bit_per_bond() {
+    fn check<T: Real>(scalar: usize, row: usize) {
+        let lattice =
+            |n: f64| Lattice::<T, 3>::new(&cube(n), Horizon::Cells(3.015), Quadrature::None);
+        let (small, large) = (lattice(16.0).expect("family"), lattice(48.0).expect("family"));
+        let offsets = large.offsets();
+        assert_eq!(offsets, 122);
+        let (_, _, of_small) = sizes(small);
+        let sites = Family::<T, 3>::sites(&large);
+        let bonds = Family::<T, 3>::bonds(&large);
+        let (bits, _, of_large) = sizes(large);
+        println!("{}: {bits:.3} bits per bond, {of_large} bytes of constants", T::NAME);
+        // |ξ|, 1/|ξ|, ω|ξ|, and what θ and e are multiplied by, per offset.
+        assert_eq!(of_small, of_large);
+        assert_eq!(of_large, offsets * 5 * scalar);
+        let most = sites * (offsets / 2 + 2);
+        assert!(bits * bonds as f64 <= most as f64 + 64.0, "{bits}");
+        // Rows of 48 + 3 sites are padded to whole registers, node arrays to a place in a page; 3
+        // rows part the planes.
+        assert!(sites <= row * 51 * 48 + 32 + 4096 / scalar, "{sites} sites");
+    }
+    check::<f64>(8, 56);
+    check::<f32>(4, 64);
+}
+
+/// Beyond displacement, velocity and force, a bond-based lattice body with damage holds at most 40
+/// bytes a node and one bit an undirected bond, its padding included.
+#[test]
+fn a_damaged_lattice_is_motion_and_bits() {
+    let family = Lattice::<f64, 3>::new(&cube(48.0), Horizon::Cells(3.015), Quadrature::None);
+    let moduli = Isotropic::from_young_poisson(7e10, 0.25).expect("moduli");
+    let pmb = Pmb::solid(&moduli, 1e3, InfluenceFunction::Constant).expect("material");
+    let stretch = Breaking::new(CriticalStretch::new(0.01).expect("criterion"));
+    let body = Body::<f64, 3, _, _, _>::new(family.expect("family"), Ordinary::new(pmb), stretch);
+    let body = body.expect("body");
+    let (nodes, bonds) = (body.nodes() as f64, body.family().bonds() as f64);
+    let rest = body.memory().total() as f64 - 3.0 * 3.0 * 8.0 * nodes - bonds / 8.0;
+    println!("{:.1} bytes a node beyond motion and a bit a bond", rest / nodes);
+    assert!(rest <= 40.0 * nodes, "{} bytes a node", rest / nodes);
+}
+
+/// A cloud holds rows: per directed bond the neighbour and the bond's shape, which bonds of the same
+/// ξ, volumes and horizons share; a bit of damage.
+#[test]
+fn a_cloud_holds_compressed_rows() {
+    fn check<T: Real>(scalar: usize) {
+        let points = Points::from_grid(&cube(16.0));
+        let cloud = Cloud::<T, 3>::new(&points, Horizon::Cells(3.015), Quadrature::None);
+        let cloud = cloud.expect("family");
+        let (nodes, directed) = (points.len(), 2 * Family::<T, 3>::bonds(&cloud));
+        let (bits, family, constants) = sizes(cloud);
+        println!(
+            "{}: {bits:.3} bits per bond, {:.1} bytes a directed bond",
+            T::NAME,
+            family as f64 / directed as f64
+        );
+        let row = 4 + 2;
+        assert!(family >= directed * row);
+        // 122 shapes of ξ, 1/|ξ|² and two volumes.
+        let shapes = 122 * 8 * scalar;
+        // Where the row starts, position and volume of every node; a sample of every shape.
+        let exact = directed * row + nodes * (8 + 3 * 8 + 8) + shapes + 122 * 8;
+        assert!(family <= exact + 256, "{family} bytes, {exact} needed");
+        assert_eq!(constants, 122 * 5 * scalar);
+        // One bit per directed bond, rows rounded up to bytes, and where each row starts.
+        assert!(bits < 2.0 + (nodes * (7 + 64 + 8)) as f64 / (0.5 * directed as f64), "{bits}");
+    }
+    check::<f64>(8);
+    check::<f32>(4);
+}
+
+/// What a capability adds to a body's arrays, and nothing else: each line is one capability off and
+/// on, with the parts that may differ. Off and on are otherwise the same to the byte.
+#[test]
+fn a_capability_costs_its_own_arrays_alone() {
+    type Parts = [usize; 8];
+    const NAMES: [&str; 8] = [
+        "family",
+        "bond constants",
+        "bond bits",
+        "node constants",
+        "node states",
+        "criterion",
+        "motion",
+        "density",
+    ];
+    fn parts<F, M, P>(body: peridynamics::core::Result<Body<f64, 3, F, M, P>>) -> Parts
+    where
+        F: Family<f64, 3>,
+        M: Material<f64, 3>,
+        P: DamagePolicy<f64, 3, M>,
+    {
+        let m = body.expect("body").memory();
+        let constants = [m.family, m.bond_constants, m.bond_bits, m.node_constants];
+        let others = [m.node_states, m.criterion, m.motion, m.density];
+        std::array::from_fn(|i| if i < 4 { constants[i] } else { others[i - 4] })
+    }
+    fn differ(name: &str, off: Parts, on: Parts, expected: &[(&str, usize)]) {
+        for (i, part) in NAMES.iter().enumerate() {
+            let more = expected.iter().find(|e| e.0 == *part).map_or(0, |e| e.1);
+            assert_eq!(on[i], off[i] + more, "{name}: {part}");
+        }
+    }
+    let moduli = Isotropic::from_young_poisson(7e10, 0.2).expect("moduli");
+    let stiffness = Stiffness::<3>::isotropic(&moduli).expect("stiffness");
+    let (constant, linear) = (InfluenceFunction::Constant, InfluenceFunction::Linear);
+    let solid = || LinearSolid::solid(&moduli, 1e3, constant).expect("material");
+    let lps = || Ordinary::new(solid());
+    let grid = cube(16.0);
+    let lattice = || {
+        let horizon = Horizon::Cells(3.015);
+        Lattice::<f64, 3>::new(&grid, horizon, Quadrature::None).expect("family")
+    };
+    let sites = Family::<f64, 3>::sites(&lattice());
+    let plain = parts(Body::new(lattice(), lps(), NoDamage));
+    let scalar = size_of::<f64>() * sites;
+    assert_eq!(plain[3..6], [scalar, scalar, 0], "1/m, θ and no criterion");
+
+    differ(
+        "small strain",
+        plain,
+        parts(Body::new(lattice(), Ordinary::linearised(solid()), NoDamage)),
+        &[],
+    );
+    let region = (0..grid.len()).map(|node| u8::from(grid.position(node)[0] > 0.0)).collect();
+    // The region of a node is in the material, its constants double: one set per region and offset.
+    let regions = Regions::new([lps(), lps()], region).expect("regions");
+    let two = parts(Body::new(lattice(), regions, NoDamage));
+    assert_eq!((two[0], two[2], two[5], two[6]), (plain[0], 0, 0, plain[6]));
+
+    let notch = || {
+        let edges = ([-9.0, 0.1, -9.0], [9.0, 0.0, 0.0], [0.0, 0.0, 18.0]);
+        Polygon::parallelogram(edges.0, edges.1, edges.2).expect("notch")
+    };
+    let cracked = parts(Body::new(lattice(), lps(), Precracked::by(notch())));
+    let blocks = sites / 8;
+    let bits = blocks * (lattice().offsets() / 2) + 2 * blocks;
+    let held = cracked[2];
+    assert!(held.abs_diff(bits) <= 16, "{held} bytes of bits, not {bits}");
+    differ("pre-crack", plain, cracked, &[("bond bits", held)]);
+    let stretch = Breaking::new(CriticalStretch::new(0.01).expect("criterion"));
+    let breaking = parts(Body::new(lattice(), lps(), stretch.precracked(notch())));
+    differ("critical stretch", cracked, breaking, &[]);
+    let energy = || BondEnergy::new(1e9).expect("criterion");
+    let breaking = parts(Body::new(lattice(), lps(), Breaking::new(energy()).precracked(notch())));
+    differ("bond energy", cracked, breaking, &[]);
+    let some = grid.select(|x| x[0] < -6.0);
+    let spared = Breaking::new(energy().sparing(&some)).precracked(notch());
+    let spared = parts(Body::new(lattice(), lps(), spared));
+    differ("nodes that cannot fail", cracked, spared, &[("criterion", scalar)]);
+
+    let nosb = || Correspondence::new(LinearElastic(stiffness), 1e3, linear).expect("law");
+    let bare = parts(Body::new(lattice(), nosb(), NoDamage));
+    let law = SaintVenantKirchhoff(stiffness);
+    let finite = Correspondence::new(law, 1e3, linear).expect("law");
+    differ("finite strain", bare, parts(Body::new(lattice(), finite, NoDamage)), &[]);
+
+    // One horizon per node, all alike, is one number per node: shapes of bonds are shared.
+    let points = Points::from_grid(&grid);
+    let one = Cloud::new(&points, Horizon::Metres(3.015), Quadrature::None).expect("cloud");
+    let each = vec![3.015; points.len()];
+    let graded = Cloud::graded(&points, &each, Quadrature::None).expect("cloud");
+    let one = parts(Body::new(one, lps(), NoDamage));
+    let numbers = size_of::<f64>() * (points.len() - 1);
+    let graded = parts(Body::new(graded, lps(), NoDamage));
+    // Both ends of a bond have constants of their own, also where they are alike.
+    differ("dual horizon", one, graded, &[("family", numbers), ("bond constants", one[1])]);
+}
