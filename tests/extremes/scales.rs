@@ -122,4 +122,5 @@ fn in_double_precision() {
 #[test]
 fn in_single_precision() {
     every_criterion(&plate(), Recipe::<2>::specimens::<f32>, 1e-5);
+    every_criterion(&block(), Recipe::<3>::specimens::<f32>, 1e-5);
 }

@@ -60,27 +60,41 @@ const FINITE: [&str; 7] = [
     "neo-Hookean",
 ];
 
-#[test]
-fn a_hundred_turns() {
+/// Spins a plate of every material in `names`.
+fn plates_turn(names: &[&str], turns: f64) {
     let points = cloud([5, 4], DX, 0.0, 1.0, 0).expect("points");
     let recipe = Recipe { points, horizon: 2.0 * DX, ..plate() };
     for (name, mut body) in all(recipe.specimens::<f64>()) {
-        if ["linear solid", "Saint-Venant-Kirchhoff"].contains(&name) {
-            spin(name, &mut *body, 100.0);
+        if names.contains(&name) {
+            spin(name, &mut *body, turns);
+        }
+    }
+}
+
+/// Spins a block of every finite material.
+fn blocks_turn(turns: f64) {
+    for (name, mut body) in all(block().specimens::<f64>()) {
+        if FINITE.contains(&name) {
+            spin(name, &mut *body, turns);
         }
     }
 }
 
 #[test]
+fn a_hundred_turns() {
+    plates_turn(&["linear solid", "Saint-Venant-Kirchhoff"], 100.0);
+}
+
+#[test]
 fn every_finite_material_turns() {
-    for (name, mut body) in all(plate().specimens::<f64>()) {
-        if FINITE.contains(&name) {
-            spin(name, &mut *body, 2.0);
-        }
-    }
-    for (name, mut body) in all(block().specimens::<f64>()) {
-        if FINITE.contains(&name) {
-            spin(name, &mut *body, 1.0);
-        }
-    }
+    plates_turn(&FINITE, 2.0);
+    blocks_turn(1.0);
+}
+
+/// `cargo test --release --test extremes -- --ignored every_finite_material --nocapture`
+#[test]
+#[ignore = "minutes"]
+fn every_finite_material_turns_a_hundred_times() {
+    plates_turn(&FINITE, 100.0);
+    blocks_turn(100.0);
 }

@@ -3,46 +3,65 @@ use super::*;
 use pd_testkit::generate::{plane_stiffnesses, solid_stiffnesses};
 use proptest::prelude::*;
 
-/// Held at one end and pulled at the other: twice the energy over the work of the supports
-/// (Clapeyron), and over that of all forces, less 1; or the solver's error.
-fn clapeyron<const D: usize>(points: &Points<D>, body: &mut dyn Specimen<D>) -> Result<[f64; 2]> {
+/// A body held at one end and pulled at the other.
+struct Pulled {
+    /// Twice the energy over the work of the supports, less 1 (Clapeyron).
+    of_supports: f64,
+    /// Twice the energy over the work of all forces, less 1.
+    of_forces: f64,
+    /// What `of_supports` may be by what the solver says of its error: the difference of the works is
+    /// r·u over the free nodes, and r·u ≤ ‖u − u*‖ ‖u_free‖ in the norm of energy.
+    told: f64,
+}
+
+fn pull<const D: usize>(points: &Points<D>, body: &mut dyn Specimen<D>) -> Result<Pulled> {
     let [left, right] = ends(points);
     // So little that no law sees the second order, times a condition of 10¹⁰; what is stored are
     // displacements, not places, so nothing is lost.
     let pull = 1e-14 * body.unit();
     let loads = Loads::new().clamp::<D>(&left).displacement(&right, 0, pull);
     let statics = Statics::new().with_tolerance(1e-10)?;
-    body.solve(&statics, loads)?;
+    let solved = body.solve(&statics, loads)?;
     assert!(body.is_finite());
     let work = |i: usize| -body.force_density(i) * body.volume(i);
     let supports: f64 = right.iter().map(|i| work(i)[0] * pull).sum();
     let all: f64 = (0..body.nodes()).map(|i| work(i).dot(&body.displacement(i))).sum();
     assert!(supports > 0.0 && all > 0.0);
-    Ok([supports, all].map(|work| 2.0 * body.strain_energy() / work - 1.0))
+    let energy = body.strain_energy();
+    for node in right.iter() {
+        let mut u = body.displacement(node);
+        u[0] = 0.0;
+        body.displace(node, &u);
+    }
+    body.evaluate()?;
+    Ok(Pulled {
+        of_supports: 2.0 * energy / supports - 1.0,
+        of_forces: 2.0 * energy / all - 1.0,
+        told: solved.error * (body.strain_energy() / energy).sqrt(),
+    })
 }
 
 /// All specimens give the right energy, or a typed error: returns how many gave an error.
-fn pulled<const D: usize>(
-    what: &str,
-    condition: f64,
-    points: &Points<D>,
-    list: Vec<Named<D>>,
-) -> usize {
+fn pulled<const D: usize>(what: &str, points: &Points<D>, list: Vec<Named<D>>) -> usize {
     let mut refused = 0;
     for (name, mut body) in existing(list) {
-        match clapeyron(points, &mut *body) {
-            Ok([error, of_forces]) => {
+        match pull(points, &mut *body) {
+            Ok(Pulled { of_supports, of_forces, told }) => {
                 assert!(of_forces.abs() < 1e-4, "{what}, {name}: energy off by {of_forces:e}");
-                // The stiffness of laws that are not linear comes from differences. A residual of
-                // 10⁻¹⁰ says nothing of the softest motions beyond this condition.
-                let limit = if body.is_linear() { 1e-6 } else { 1e-2 };
-                let ok = condition > 1e6 || error.abs() < limit;
-                assert!(ok, "{what}, {name}: energy off by {error:e}");
+                // The stiffness of laws that are not linear comes from differences.
+                let rounding = if body.is_linear() { 1e-6 } else { 1e-2 };
+                println!("{what}, {name}: off by {of_supports:.1e}, told {told:.1e}");
+                let ok = of_supports.abs() < told + rounding;
+                assert!(ok, "{what}, {name}: off by {of_supports:e}, told {told:e}");
             }
             Err(error) => {
                 println!("{what}, {name}: {error}");
-                let known =
-                    matches!(error, Error::NotConverged { .. } | Error::IndefiniteOperator { .. });
+                let known = matches!(
+                    error,
+                    Error::NotConverged { .. }
+                        | Error::IndefiniteOperator { .. }
+                        | Error::IllConditioned { .. }
+                );
                 assert!(known, "{what}, {name}: {error}");
                 refused += 1;
             }
@@ -59,13 +78,13 @@ fn moduli_a_million_apart() {
         recipe.stiffness = Stiffness::<2>::lamina(&ply).expect("ply").rotated(0.4);
         let what = format!("E1/E2 = {ratio:e}");
         // The polynomial micromoduli are not definite for such plies; all others are solved.
-        assert_eq!(pulled(&what, ratio, &recipe.points, recipe.specimens::<f64>()), 1);
+        assert_eq!(pulled(&what, &recipe.points, recipe.specimens::<f64>()), 1);
         let mut recipe = block();
         let solid =
             TransverselyIsotropic { e1: 1e11, e2: 1e11 / ratio, g12: 5e9, nu12: 0.3, nu23: 0.4 };
         let solid = Stiffness::<3>::transversely_isotropic(&solid).expect("solid");
         recipe.stiffness = solid.rotated_about_z(0.4);
-        assert_eq!(pulled(&what, ratio, &recipe.points, recipe.specimens::<f64>()), 1);
+        assert_eq!(pulled(&what, &recipe.points, recipe.specimens::<f64>()), 1);
     }
 }
 
@@ -76,8 +95,8 @@ fn nearly_incompressible_and_auxetic() {
         let what = format!("ν = {nu}");
         let (mut flat, mut deep) = (plate(), block());
         (flat.moduli, deep.moduli) = (moduli, moduli);
-        let refused = pulled(&what, 1e4, &flat.points, flat.specimens::<f64>())
-            + pulled(&what, 1e4, &deep.points, deep.specimens::<f64>());
+        let refused = pulled(&what, &flat.points, flat.specimens::<f64>())
+            + pulled(&what, &deep.points, deep.specimens::<f64>());
         println!("{what}: {refused} refused");
         assert!(refused <= 3, "{what}: {refused}");
     }
@@ -116,7 +135,7 @@ proptest! {
     #[test]
     fn any_stiffness_of_condition_1e10(c in plane_stiffnesses(1e11, 1e10)) {
         let recipe = Recipe { stiffness: c, ..plate() };
-        pulled("condition 1e10", 1e10, &recipe.points, recipe.specimens::<f64>());
+        pulled("condition 1e10", &recipe.points, recipe.specimens::<f64>());
         // ½ε:C:ε is itself a difference that leaves six digits.
         exact_energy(&c, &softest_2(&c), recipe.specimens::<f64>(), 1e-3);
     }
@@ -124,7 +143,7 @@ proptest! {
     #[test]
     fn any_stiffness_in_space(c in solid_stiffnesses(1e11, 1e6)) {
         let recipe = Recipe { stiffness: c, ..block() };
-        pulled("condition 1e6", 1e6, &recipe.points, recipe.specimens::<f64>());
+        pulled("condition 1e6", &recipe.points, recipe.specimens::<f64>());
         let strain = SMatrix::<f64, 3, 3>::new(1.0, 0.2, -0.3, 0.2, -0.4, 0.1, -0.3, 0.1, 0.6) * 1e-14;
         exact_energy(&c, &strain, recipe.specimens::<f64>(), 1e-9);
     }

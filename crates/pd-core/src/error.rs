@@ -246,6 +246,21 @@ pub enum Error {
         /// The free motion.
         motion: String,
     },
+    /// The residual is small but says nothing about the displacements.
+    #[error(
+        "the static solver reached a relative residual of {residual:e}, but with a smallest \
+         eigenvalue of {softest:e} of the preconditioned operator the displacements may be off by \
+         {error:.1} of themselves in the norm of energy: ask for a smaller tolerance, use f64, or \
+         look for parts that are barely held"
+    )]
+    IllConditioned {
+        /// The estimate of ‖u − u*‖/‖u‖ in the norm of energy.
+        error: f64,
+        /// ‖r‖/‖r₀‖.
+        residual: f64,
+        /// λ.
+        softest: f64,
+    },
     /// The iteration ended before the residual was small enough.
     #[error(
         "the static solver stopped at a relative residual of {residual:e} (asked for \
