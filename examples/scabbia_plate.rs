@@ -3,16 +3,16 @@
 //! ```text
 //! cargo run --release --example scabbia_plate [-- --short | --full]
 //! ```
-//! Glass–epoxy, fibres at 40°, 0.3 × 0.2 m, clamped on the left in a fictitious layer as thick as
-//! the horizon, 10 MPa in x on the upper half of the right edge as a body force in a layer. The
-//! paper: Δx = 1 mm, m = 5, load layer as thick as the horizon; difference by Eq. 51 below 1 %.
+//! Glass–epoxy, fibres at 40°, 0.3 × 0.2 m, clamped on the left edge, 10 MPa in x on the upper half
+//! of the right one. The paper: Δx = 1 mm, m = 5, a fictitious layer as thick as the horizon on the
+//! left and a body force in such a layer on the right; difference by Eq. 51 below 1 %.
 //!
-//! Both calibrations, with and without surface correction, and the load in the horizon's layer or
-//! in the last row of nodes. `--short` takes Δx = 5 mm, `--full` every combination. Pictures go to
-//! `out/scabbia_plate/`.
+//! Conditions on the edges themselves (`Loads::displacement_at`, `Loads::traction`) and as the
+//! paper; both calibrations, with and without surface correction. `--short` takes Δx = 5 mm,
+//! `--full` every combination. Pictures go to `out/scabbia_plate/`.
 
 use pd_testkit::fem::Displacements;
-use pd_testkit::scabbia63::{HEIGHT, LENGTH, PRESSURE, Plate, Solution as Solution63};
+use pd_testkit::scabbia63::{Conditions, HEIGHT, LENGTH, PRESSURE, Plate, Solution as Solution63};
 use peridynamics::io::{ColourMap, FieldMap};
 use peridynamics::models::elasticity::catalogue::GLASS_EPOXY;
 use peridynamics::models::{OnFamily, ScalarState};
@@ -32,13 +32,13 @@ struct Solution {
 }
 
 fn solve<S: ScalarState<f64, 2>>(
-    name: &str,
+    name: &'static str,
     model: S,
     (dx, m): (f64, f64),
-    depth: f64,
-) -> Outcome<Solution> {
+    conditions: Conditions,
+) -> Outcome<(&'static str, Solution)> {
     let start = Instant::now();
-    let plate = Plate { dx, m, quadrature: Quadrature::Exact, depth, tolerance: 1e-6 };
+    let plate = Plate { dx, m, quadrature: Quadrature::Exact, conditions, tolerance: 1e-6 };
     let Solution63 { body, clamp, solved } =
         plate.solve::<f64, _>(Ordinary::linearised(model), watch(name))?;
     println!(
@@ -49,7 +49,7 @@ fn solve<S: ScalarState<f64, 2>>(
     );
     let reaction = peridynamics::core::run::reaction(&body, &clamp)[0];
     let u = (0..body.nodes()).map(|i| body.displacement(i)).collect();
-    Ok(Solution { grid: body.family().grid().clone(), u, reaction })
+    Ok((name, Solution { grid: body.family().grid().clone(), u, reaction }))
 }
 
 fn draw(file: &str, title: &str, solution: &Solution, dx: f64) -> Outcome {
@@ -73,21 +73,20 @@ fn main() -> Outcome {
     let split = PositiveSplit::plane(&stiffness, 1e3, InfluenceFunction::Gaussian)?;
     println!("Δx = {} mm, m = {m}", dx * 1e3);
 
-    let thick = m * dx;
-    let mut runs = vec![
-        ("paper", solve("paper", polynomial.clone(), plate, thick)?),
-        ("positive split", solve("positive split", split.clone(), plate, thick)?),
-        ("positive split, load in one row", solve("split, one row", split, plate, dx)?),
-    ];
+    let (faces, layers) = (Conditions::Faces, Conditions::Layers(m * dx));
     let corrected = OnFamily::new(polynomial.clone(), &stiffness);
-    if effort != Effort::Default {
-        let name = "polynomial, load in one row";
-        runs.push((name, solve(name, polynomial, plate, dx)?));
-        let name = "polynomial, corrected";
-        runs.push((name, solve(name, corrected.clone(), plate, thick)?));
+    let mut runs = vec![
+        solve("paper", polynomial.clone(), plate, layers)?,
+        solve("polynomial", polynomial, plate, faces)?,
+        solve("polynomial, corrected", corrected.clone(), plate, faces)?,
+        solve("positive split, layers", split.clone(), plate, layers)?,
+        solve("positive split", split.clone(), plate, faces)?,
+    ];
+    if effort == Effort::Full {
+        let row = Conditions::Layers(dx);
+        runs.push(solve("polynomial, corrected, layers", corrected, plate, layers)?);
+        runs.push(solve("positive split, layers, load in one row", split, plate, row)?);
     }
-    let name = "polynomial, corrected, load in one row";
-    runs.push((name, solve(name, corrected, plate, dx)?));
 
     let at_paper = dx == 1e-3;
     let mut table = Measures::new(

@@ -118,7 +118,7 @@ pub mod prelude {
     pub use pd_core::influence::{Influence, InfluenceFunction};
     pub use pd_core::integrator::{Integrator, SymplecticEuler, VelocityVerlet};
     pub use pd_core::lattice::Lattice;
-    pub use pd_core::loads::Loads;
+    pub use pd_core::loads::{Face, Loads};
     pub use pd_core::material::{EnergySplit, Material, StrainEnergy, StressState};
     pub use pd_core::points::Points;
     pub use pd_core::quadrature::Quadrature;

@@ -3,7 +3,7 @@
 use super::{Scene, influence, quadrature};
 use pd_testkit::clock::seconds;
 use pd_testkit::fem::Displacements;
-use pd_testkit::scabbia63::Plate;
+use pd_testkit::scabbia63::{Conditions, Plate};
 use peridynamics::models::OnFamily;
 use peridynamics::models::elasticity::catalogue::GLASS_EPOXY;
 use peridynamics::prelude::*;
@@ -62,7 +62,7 @@ fn go<T: Real, M: Material<T, 2>>(
     let (dx, m) = (point.number("Δx")?, point.number("m")?);
     let depth = if point.name("load")? == "last row" { dx } else { m * dx };
     let (quadrature, tolerance) = (quadrature(point)?, point.number("tolerance")?);
-    let plate = Plate { dx, m, quadrature, depth, tolerance };
+    let plate = Plate { dx, m, quadrature, conditions: Conditions::Layers(depth), tolerance };
     let solution = plate.solve::<T, _>(material, |_| {})?;
     let body = &solution.body;
     let apart = fem.differences(body.family().grid(), |node| body.displacement(node));

@@ -1,5 +1,6 @@
 //! Static solutions: one file per property.
 mod blocks;
+mod boundary_layers;
 #[path = "../common/mod.rs"]
 mod common;
 mod errors;

@@ -138,6 +138,18 @@ pub enum Error {
         /// The component.
         axis: usize,
     },
+    /// A node of a boundary layer has no mirror image inside the body.
+    #[error(
+        "node {node} of a boundary layer has no mirror image of its own in the body (it would be at \
+         {image:?} m): put the face between two rows of nodes or on one, and make the body at \
+         least as thick behind it as the layer"
+    )]
+    NoImage {
+        /// The node.
+        node: usize,
+        /// Its mirror image, in metres.
+        image: Vec<f64>,
+    },
     /// A time step above the body's critical one.
     #[error(
         "time step {dt:e} s is above the critical step {critical:e} s of this body: the run would \

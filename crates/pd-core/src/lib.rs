@@ -47,7 +47,7 @@ pub use grid::{Grid, NodeSet};
 pub use influence::{Influence, InfluenceFunction};
 pub use integrator::{Integrator, SymplecticEuler, VelocityVerlet};
 pub use lattice::Lattice;
-pub use loads::Loads;
+pub use loads::{Face, Loads};
 pub use material::{EnergySplit, Material, StrainEnergy, StressState};
 pub use points::Points;
 pub use quadrature::Quadrature;

@@ -1,9 +1,11 @@
-//! Linear statics: matrix-free preconditioned conjugate gradients.
+//! Linear statics: matrix-free preconditioned Krylov iterations.
 //!
 //! Wanted is the u with K u = b on every free component, where K u = −f(u) are the forces of the
 //! body (exactly, for a material that [is linear](crate::Material::LINEAR); else −∂f/∂u about the
 //! reference configuration by central differences) and b the body forces. Multiplied by the nodes'
-//! volumes, K is symmetric for every elastic body. Prescribed components keep their value. No
+//! volumes, K is symmetric for every elastic body, and conjugate gradients solve it; with layers
+//! that [mirror](Loads::displacement_at) the body it is not, and stabilised bi-conjugate gradients
+//! (van der Vorst 1992) take two evaluations an iteration. Prescribed components keep their value. No
 //! matrix is stored: one iteration is one evaluation of the forces, and the preconditioner holds
 //! the inverse of the D × D block of K of every node. Sums run in a fixed order, so that the result
 //! is bitwise the same for any number of threads.
@@ -59,7 +61,8 @@ pub struct Solved {
     /// ‖u − u*‖² ≤ r·M⁻¹r/λ with the preconditioner M and the smallest eigenvalue λ of M⁻¹VK, which
     /// is estimated from the iteration itself, as it is one of Lanczos too. Where the stiffness has
     /// a condition of 10¹⁰ a residual of 10⁻¹⁰ says little of the softest motions.
-    pub error: f64,
+    /// None with layers that mirror the body, whose operator has no norm of energy.
+    pub error: Option<f64>,
 }
 
 impl Statics {
@@ -145,61 +148,47 @@ impl Statics {
         let mut b = Field::zeros(sites);
         operator.weigh(body.force(), 1.0, &mut b);
 
-        let [mut r, mut z, mut p, mut q] = std::array::from_fn(|_| Field::zeros(sites));
+        let [mut r, mut q] = std::array::from_fn(|_| Field::zeros(sites));
+        let mut progress = Progress { iteration: 0, residual: 1.0 };
         let (mut first, mut last) = (0.0, f64::INFINITY);
         let mut softest = f64::INFINITY;
-        let mut iteration = 0;
         // The updated residual drifts from the true one by rounding: start again from that.
-        let (residual, rz) = loop {
+        loop {
             operator.apply(body, &u, &mut q)?;
             r.as_mut_slice().copy_from_slice(b.as_slice());
             axpy(r.as_mut_slice(), -T::one(), q.as_slice());
             let norm = dot(&r, &r).sqrt();
-            first = if iteration == 0 { norm } else { first };
-            let residual = if norm == 0.0 { 0.0 } else { norm / first };
-            map_sites((&inverse, &r), &mut z, |(m, r), _| m * r);
-            let mut rz = dot(&r, &z);
+            first = if progress.iteration == 0 { norm } else { first };
+            progress.residual = if norm == 0.0 { 0.0 } else { norm / first };
+            let Progress { iteration, residual } = progress;
             if residual <= tolerance {
-                break (residual, rz);
+                break;
             }
             let stuck = residual.is_nan() || residual > 0.5 * last;
             if stuck || iteration >= limit {
                 return Err(Error::NotConverged { residual, tolerance, iterations: iteration });
             }
             last = residual;
-
-            p.as_mut_slice().copy_from_slice(z.as_slice());
-            let mut lanczos = Tridiagonal::default();
-            while iteration < limit {
-                iteration += 1;
-                operator.apply(body, &p, &mut q)?;
-                let curvature = dot(&p, &q);
-                if curvature <= 0.0 {
-                    return Err(operator.indefinite(body, &p, curvature, iteration));
-                }
-                let alpha = rz / curvature;
-                axpy(u.as_mut_slice(), T::of(alpha), p.as_slice());
-                axpy(r.as_mut_slice(), T::of(-alpha), q.as_slice());
-                let residual = dot(&r, &r).sqrt() / first;
-                watch(Progress { iteration, residual });
-                map_sites((&inverse, &r), &mut z, |(m, r), _| m * r);
-                let next = dot(&r, &z);
-                lanczos.push(alpha, next / rz);
-                if residual.is_nan() || residual <= tolerance {
-                    break;
-                }
-                xpby(z.as_slice(), T::of(next / rz), p.as_mut_slice());
-                rz = next;
+            let mut goes_on = |norm: f64| {
+                progress.iteration += 1;
+                progress.residual = norm / first;
+                watch(progress);
+                progress.residual > tolerance && progress.iteration < limit
+            };
+            let system = (&operator, &inverse);
+            if operator.mirrored.is_empty() {
+                let seen = conjugate_gradients(system, body, &mut u, &mut r, &mut goes_on)?;
+                softest = softest.min(seen);
+            } else {
+                bi_conjugate_gradients(system, body, &mut u, &mut r, &mut goes_on)?;
             }
-            softest = softest.min(lanczos.smallest());
-        };
+        }
         *body.u_mut() = u;
         body.evaluate()?;
-        q.as_mut_slice().fill(T::zero());
-        axpy_weighted(q.as_mut_slice(), -T::one(), &operator.weights, body.force().as_slice());
-        let square = dot(body.u(), &q);
-        let error = if rz == 0.0 { 0.0 } else { (rz / softest / square.max(0.0)).sqrt() };
-        if error > KNOWN {
+        let Progress { iteration, residual } = progress;
+        let symmetric = operator.mirrored.is_empty();
+        let error = symmetric.then(|| operator.error(body, (&inverse, &r), softest));
+        if let Some(error) = error.filter(|&error| error > KNOWN) {
             return Err(Error::IllConditioned { error, residual, softest });
         }
         loads.add_forces(body, 0.0);
@@ -247,12 +236,92 @@ impl Tridiagonal {
     }
 }
 
+/// An operator and the inverse of every node's own block of it.
+type System<'a, T, const D: usize> = (&'a Operator<T>, &'a Field<T, SMatrix<T, D, D>>);
+
+/// Improves u with the residual r while `goes_on` with the norm of r after every iteration; returns
+/// the smallest eigenvalue of M⁻¹VK that it has seen.
+fn conjugate_gradients<T: Real, const D: usize>(
+    (operator, inverse): System<'_, T, D>,
+    body: &mut impl Dynamics<T, D>,
+    u: &mut Vectors<T, D>,
+    r: &mut Vectors<T, D>,
+    goes_on: &mut dyn FnMut(f64) -> bool,
+) -> Result<f64> {
+    let mut lanczos = Tridiagonal::default();
+    let [mut z, mut q] = std::array::from_fn(|_| Field::zeros(r.len()));
+    map_sites((inverse, &*r), &mut z, |(m, r), _| m * r);
+    let (mut p, mut rz) = (z.clone(), dot(r, &z));
+    let mut iteration = 0;
+    loop {
+        iteration += 1;
+        operator.apply(body, &p, &mut q)?;
+        let curvature = dot(&p, &q);
+        if curvature <= 0.0 {
+            return Err(operator.indefinite(body, &p, curvature, iteration));
+        }
+        let alpha = rz / curvature;
+        axpy(u.as_mut_slice(), T::of(alpha), p.as_slice());
+        axpy(r.as_mut_slice(), T::of(-alpha), q.as_slice());
+        if !goes_on(dot(r, r).sqrt()) {
+            lanczos.push(alpha, 0.0);
+            return Ok(lanczos.smallest());
+        }
+        map_sites((inverse, &*r), &mut z, |(m, r), _| m * r);
+        let next = dot(r, &z);
+        lanczos.push(alpha, next / rz);
+        xpby(z.as_slice(), T::of(next / rz), p.as_mut_slice());
+        rz = next;
+    }
+}
+
+/// The same for an operator that is not symmetric: stabilised bi-conjugate gradients. Ends early
+/// where they break down.
+fn bi_conjugate_gradients<T: Real, const D: usize>(
+    (operator, inverse): System<'_, T, D>,
+    body: &mut impl Dynamics<T, D>,
+    u: &mut Vectors<T, D>,
+    r: &mut Vectors<T, D>,
+    goes_on: &mut dyn FnMut(f64) -> bool,
+) -> Result<()> {
+    let [mut z, mut v, mut t] = std::array::from_fn(|_| Field::zeros(r.len()));
+    // out = A z with z = M q.
+    let apply = |body: &mut _, q: &Vectors<T, D>, z: &mut Vectors<T, D>, out: &mut _| {
+        map_sites((inverse, q), z, |(m, q), _| m * q);
+        operator.mirror(z);
+        operator.apply(body, z, out)
+    };
+    let (shadow, mut p) = (r.clone(), r.clone());
+    let mut rho = dot(&shadow, r);
+    loop {
+        apply(body, &p, &mut z, &mut v)?;
+        let alpha = rho / dot(&shadow, &v);
+        axpy(u.as_mut_slice(), T::of(alpha), z.as_slice());
+        axpy(r.as_mut_slice(), T::of(-alpha), v.as_slice());
+        apply(body, r, &mut z, &mut t)?;
+        let square = dot(&t, &t);
+        let omega = if square > 0.0 { dot(&t, r) / square } else { 0.0 };
+        axpy(u.as_mut_slice(), T::of(omega), z.as_slice());
+        axpy(r.as_mut_slice(), T::of(-omega), t.as_slice());
+        let next = dot(&shadow, r);
+        let beta = next / rho * alpha / omega;
+        if !goes_on(dot(r, r).sqrt()) || !beta.is_finite() {
+            return Ok(());
+        }
+        axpy(p.as_mut_slice(), T::of(-omega), v.as_slice());
+        xpby(r.as_slice(), T::of(beta), p.as_mut_slice());
+        rho = next;
+    }
+}
+
 /// V K with the prescribed components taken out.
 struct Operator<T> {
     /// Volume of every site over the largest one; 0 where no node is.
     weights: Vec<T>,
     /// Places of the prescribed components in the node arrays.
     held: Vec<usize>,
+    /// Places of the components that mirror another, and of their images.
+    mirrored: Vec<(usize, usize)>,
     linear: bool,
     unit: f64,
 }
@@ -272,13 +341,21 @@ impl<T: Real> Operator<T> {
         let mut is_held = vec![false; D * sites];
         held.iter().for_each(|&i| is_held[i] = true);
         require_held(body, |node, axis| is_held[axis * sites + body.site(node)])?;
-        Ok(Self { weights, held, linear: body.is_linear(), unit: body.unit() })
+        let place = |(site, image, axis)| (axis * sites + site, axis * sites + image);
+        let mirrored = loads.mirrored().into_iter().map(place).collect();
+        Ok(Self { weights, held, mirrored, linear: body.is_linear(), unit: body.unit() })
     }
 
     /// out = factor · V · force on the free components, 0 on the others.
     fn weigh<const D: usize>(&self, force: &Vectors<T, D>, factor: f64, out: &mut Vectors<T, D>) {
         axpy_weighted(out.as_mut_slice(), T::of(factor), &self.weights, force.as_slice());
         self.held.iter().for_each(|&i| out.as_mut_slice()[i] = T::zero());
+    }
+
+    /// Gives components that mirror another the negative of it: a change of u that keeps ū.
+    fn mirror<const D: usize>(&self, q: &mut Vectors<T, D>) {
+        let q = q.as_mut_slice();
+        self.mirrored.iter().for_each(|&(own, image)| q[own] = -q[image]);
     }
 
     /// out = V K q on the free components, 0 on the others; K q = −f(q), or for a material that
@@ -337,6 +414,20 @@ impl<T: Real> Operator<T> {
             blocks.set(site, inverse.ok_or(indefinite)?);
         }
         Ok(blocks)
+    }
+
+    /// (r·M⁻¹r/λ)^½ over the norm of the body's u, in the norm of energy.
+    fn error<const D: usize>(
+        &self,
+        body: &impl Dynamics<T, D>,
+        (inverse, r): (&Field<T, SMatrix<T, D, D>>, &Vectors<T, D>),
+        softest: f64,
+    ) -> f64 {
+        let [mut z, mut q] = std::array::from_fn(|_| Field::zeros(r.len()));
+        map_sites((inverse, r), &mut z, |(m, r), _| m * r);
+        axpy_weighted(q.as_mut_slice(), -T::one(), &self.weights, body.force().as_slice());
+        let (left, energy) = (dot(r, &z), dot(body.u(), &q));
+        if left == 0.0 { 0.0 } else { (left / softest / energy.max(0.0)).sqrt() }
     }
 
     fn indefinite<const D: usize>(

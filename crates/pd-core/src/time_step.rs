@@ -113,7 +113,7 @@ pub(crate) fn softest_wave<T: Real, const D: usize, B: Dynamics<T, D>>(
 }
 
 /// Probes a body and puts its motion back.
-fn in_peace<T: Real, const D: usize, B: Dynamics<T, D>, X>(
+pub(crate) fn in_peace<T: Real, const D: usize, B: Dynamics<T, D>, X>(
     body: &mut B,
     probe: impl FnOnce(&mut B) -> Result<X>,
 ) -> Result<X> {
