@@ -4,6 +4,7 @@
 use nalgebra::{Matrix3, Matrix6, SMatrix};
 use pd_core::crack::CrackSurface;
 use pd_testkit::oracle::{Case, flat, relative_difference};
+use peridynamics::models::correspondence::unpacked;
 use peridynamics::prelude::*;
 
 /// Checks forces and energy of one material on lattice and cloud.
@@ -213,11 +214,11 @@ fn correspondence<T, const D: usize, L>(
         let mut fields: Vec<(&str, Vec<f64>)> =
             vec![("F", vec![]), ("stress", vec![]), ("B", vec![]), ("first_pk", vec![])];
         for i in 0..count {
-            let ((), b, (_, h)) = node(i);
+            let ((), (b, _), (_, (h, _))) = node(i);
             let f = h + SMatrix::identity();
             fields[0].1.extend(rows(&f));
             fields[1].1.extend(rows(&law.cauchy(&h)));
-            fields[2].1.extend(rows(&b).iter().map(|x| x / unit));
+            fields[2].1.extend(rows(&unpacked(&b)).iter().map(|x| x / unit));
             fields[3].1.extend(rows(&law.stress(&h)));
         }
         for (field, got) in fields {

@@ -156,11 +156,11 @@ impl<T: Real, const D: usize, M: Material<T, D>, const TRACK: bool> BondKernel<T
     fn close(
         &self,
         sum: &SVector<T, D>,
-        _: &Self::Node,
+        (constants, state): &Self::Node,
         (): &(),
         _: SVector<T, D>,
     ) -> SVector<T, D> {
-        *sum
+        sum + self.0.node_force(constants, state)
     }
 }
 

@@ -326,17 +326,44 @@ fn relative<T: Real, const D: usize, const N: usize>(
     SVector::from_fn(|d, _| far.plane(d)[lane] - near.plane(d)[lane])
 }
 
+/// What a block of N nodes gathers: the sums of a kernel, the least and the largest t. Passed by
+/// value, for sums behind a reference are not kept in registers while a block goes through its bonds.
+struct Gathered<T, S: Record<T>, const N: usize>
+where
+    T: Real,
+{
+    sums: S::Lanes<N>,
+    low: [T; N],
+    high: [T; N],
+}
+
+impl<T: Real, S: Record<T>, const N: usize> Clone for Gathered<T, S, N> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<T: Real, S: Record<T>, const N: usize> Copy for Gathered<T, S, N> {}
+
+impl<T: Real, S: Record<T>, const N: usize> Gathered<T, S, N> {
+    #[inline(always)]
+    fn nothing() -> Self {
+        let zeros = [T::zero(); N];
+        Self { sums: S::lanes::<N>(), low: zeros, high: zeros }
+    }
+}
+
 /// Adds the bonds along one offset of a block of nodes, where `there` holds if MASKED.
 #[inline(always)]
 fn add_lanes<'a, T, const D: usize, Kn, I, J, const N: usize, const MASKED: bool>(
     job: &Job<'a, T, D, Kn, I, J>,
-    sums: &mut <Kn::Sum as Record<T>>::Lanes<N>,
-    (low, high): (&mut [T; N], &mut [T; N]),
+    so_far: Gathered<T, Kn::Sum, N>,
     (offset, k): (&Offset<T, D>, &Kn::Const),
     there: u32,
     (start, near, own): (usize, &Planes<'a, T, N>, &I::Block<N>),
     arithmetic: Arithmetic,
-) where
+) -> Gathered<T, Kn::Sum, N>
+where
     T: Real,
     Kn: BondKernel<T, D>,
     I: Inputs<T, Value = Kn::Node>,
@@ -346,69 +373,59 @@ fn add_lanes<'a, T, const D: usize, Kn, I, J, const N: usize, const MASKED: bool
     let far: Planes<'_, T, N> = job.u.block(beyond);
     let other = job.input.block::<N>(beyond);
     let pair = Pair { constants: [k, k], volumes: [offset.volume; 2] };
+    let mut gathered = Gathered::nothing();
     for l in 0..N {
         let on = !MASKED || there >> l & 1 == 1;
         let eta = relative(near, &far, l);
         let bond = Bond::of_kernel(offset.xi, eta, offset.inverse_square, arithmetic);
         let nodes = [I::lane::<N>(own, l), I::lane::<N>(&other, l)];
-        let old = <Kn::Sum as Record<T>>::get::<N>(sums, l);
+        let old = <Kn::Sum as Record<T>>::get::<N>(&so_far.sums, l);
         let mut sum = old;
         job.kernel.add(&mut sum, &bond, pair, [&nodes[0], &nodes[1]]);
-        <Kn::Sum as Record<T>>::select(on, sum, old).put::<N>(sums, l);
+        <Kn::Sum as Record<T>>::select(on, sum, old).put::<N>(&mut gathered.sums, l);
         if Kn::TRACK {
-            let t = bond.square_strain();
-            high[l] = if on & (t > high[l]) { t } else { high[l] };
-            low[l] = if on & (t < low[l]) { t } else { low[l] };
+            let (t, low, high) = (bond.square_strain(), so_far.low[l], so_far.high[l]);
+            gathered.high[l] = if on & (t > high) { t } else { high };
+            if Kn::STRETCH {
+                gathered.low[l] = if on & (t < low) { t } else { low };
+            }
         }
     }
+    gathered
 }
 
 /// Adds all bonds of a block of N nodes to zero sums.
 #[inline(always)]
 fn fold<'a, T, const D: usize, Kn, I, J, const N: usize>(
     job: &Job<'a, T, D, Kn, I, J>,
-    sums: &mut <Kn::Sum as Record<T>>::Lanes<N>,
-    (low, high): (&mut [T; N], &mut [T; N]),
-    (start, full): (usize, bool),
-    (near, own): (&Planes<'a, T, N>, &I::Block<N>),
+    full: bool,
+    block: (usize, &Planes<'a, T, N>, &I::Block<N>),
     arithmetic: Arithmetic,
-) where
+) -> Gathered<T, Kn::Sum, N>
+where
     T: Real,
     Kn: BondKernel<T, D>,
     I: Inputs<T, Value = Kn::Node>,
     J: Inputs<T, Value = Kn::Own>,
 {
-    *sums = <Kn::Sum as Record<T>>::lanes::<N>();
-    (*low, *high) = ([T::zero(); N], [T::zero(); N]);
+    let mut gathered = Gathered::nothing();
     let offsets = job.lattice.offsets.iter().zip(job.table);
     if full {
         for entry in offsets {
-            add_lanes::<T, D, Kn, I, J, N, false>(
-                job,
-                sums,
-                (low, high),
-                entry,
-                0,
-                (start, near, own),
-                arithmetic,
-            );
+            gathered =
+                add_lanes::<T, D, Kn, I, J, N, false>(job, gathered, entry, 0, block, arithmetic);
         }
     } else {
         for (o, entry) in offsets.enumerate() {
-            let there = job.there::<N>(start, o);
+            let there = job.there::<N>(block.0, o);
             if there != 0 {
-                add_lanes::<T, D, Kn, I, J, N, true>(
-                    job,
-                    sums,
-                    (low, high),
-                    entry,
-                    there,
-                    (start, near, own),
-                    arithmetic,
+                gathered = add_lanes::<T, D, Kn, I, J, N, true>(
+                    job, gathered, entry, there, block, arithmetic,
                 );
             }
         }
     }
+    gathered
 }
 
 impl<T: Real, const D: usize, Kn: BondKernel<T, D>, I, J> Job<'_, T, D, Kn, I, J> {
@@ -472,43 +489,29 @@ where
         let near: Planes<'_, T, N> = job.u.block(start);
         let own_block = job.input.block::<N>(start);
         let full = job.full::<N>(start);
+        let block = (start, &near, &own_block);
         let small = Arithmetic { small: Kn::STRETCH, fused };
-        let mut sums = <Kn::Sum as Record<T>>::lanes::<N>();
-        let (mut low, mut high) = ([T::zero(); N], [T::zero(); N]);
-        fold::<T, D, Kn, I, J, N>(
-            job,
-            &mut sums,
-            (&mut low, &mut high),
-            (start, full),
-            (&near, &own_block),
-            small,
-        );
+        let mut gathered = fold::<T, D, Kn, I, J, N>(job, full, block, small);
         if Kn::STRETCH {
             let mut small = true;
             for l in 0..N {
-                small &= (high[l] <= limit) & (low[l] >= -limit);
+                small &= (gathered.high[l] <= limit) & (gathered.low[l] >= -limit);
             }
             if !small {
                 let exact = Arithmetic { small: false, fused };
-                fold::<T, D, Kn, I, J, N>(
-                    job,
-                    &mut sums,
-                    (&mut low, &mut high),
-                    (start, false),
-                    (&near, &own_block),
-                    exact,
-                );
+                gathered = fold::<T, D, Kn, I, J, N>(job, false, block, exact);
             }
         }
         if Kn::TRACK {
             for l in 0..N {
-                largest[l] = if high[l] > largest[l] { high[l] } else { largest[l] };
+                let high = gathered.high[l];
+                largest[l] = if high > largest[l] { high } else { largest[l] };
             }
         }
         // A copy, so that the sums themselves are only read as whole vectors and stay in registers.
         let mut finished = <Kn::Sum as Record<T>>::lanes::<N>();
         for l in 0..N {
-            <Kn::Sum as Record<T>>::get::<N>(&sums, l).put::<N>(&mut finished, l);
+            <Kn::Sum as Record<T>>::get::<N>(&gathered.sums, l).put::<N>(&mut finished, l);
         }
         let owns = job.own.block::<N>(start);
         let before = <Kn::Out as Record<T>>::read_lanes::<N>(&out, start - first);
@@ -545,8 +548,7 @@ where
     J: Inputs<T, Value = Kn::Own>,
 {
     let fused = cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma");
-    // The optimiser vectorises sums of more numbers than this in loops of sixteen only.
-    if T::WIDE || Kn::Sum::LEN > 4 {
+    if T::WIDE {
         sweep_blocks::<T, D, Kn, I, J, WIDEST>(job, sites, out, fused)
     } else {
         sweep_blocks::<T, D, Kn, I, J, LANES>(job, sites, out, fused)

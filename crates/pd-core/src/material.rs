@@ -100,8 +100,9 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
             - self.force_state(&bond.reversed(), ends[1]) * ends[1].volume
     }
 
-    /// Adds [`pair_force`](Self::pair_force) to the force density of the bond's first node.
-    /// Override it where the multiplications can take the addition along ([`Bond::fma`]).
+    /// Adds [`pair_force`](Self::pair_force) to the force density of the bond's first node, without
+    /// the share of it that [`node_force`](Self::node_force) gives. Override it where the
+    /// multiplications can take the addition along ([`Bond::fma`]).
     #[inline(always)]
     fn add_pair_force(
         &self,
@@ -110,6 +111,16 @@ pub trait Material<T: Real, const D: usize>: Send + Sync {
         ends: [End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>; 2],
     ) {
         *sum += self.pair_force(bond, ends);
+    }
+
+    /// The share of a node's force density that its state tells, so that it need not be summed bond
+    /// by bond: where T is linear in sums over the family, Σ T⟨ξ⟩βV is known with them, and
+    /// [`add_pair_force`](Self::add_pair_force) adds only what the neighbours contribute. Nothing by
+    /// default.
+    #[inline(always)]
+    fn node_force(&self, constants: &Self::NodeConst, state: &Self::NodeState) -> SVector<T, D> {
+        let _ = (constants, state);
+        SVector::zeros()
     }
 
     /// True if the node has lost its shape tensor: it carries no stress and its bonds break.
@@ -268,6 +279,10 @@ impl<T: Real, const D: usize, M: Material<T, D>> Material<T, D> for &M {
         ends: [End<'_, T, Self::BondConst, Self::NodeConst, Self::NodeState>; 2],
     ) {
         (**self).add_pair_force(sum, bond, ends);
+    }
+    #[inline(always)]
+    fn node_force(&self, constants: &Self::NodeConst, state: &Self::NodeState) -> SVector<T, D> {
+        (**self).node_force(constants, state)
     }
     #[inline(always)]
     fn detached(&self, family: &Self::FamilyConst) -> bool {

@@ -286,9 +286,8 @@ impl<const D: usize> WanControl<D> {
 }
 
 impl<T: Real, const D: usize> ZeroEnergyControl<T, D> for WanControl<D> {
-    /// g C̄, which is symmetric as C and B are: its diagonal, and beside each entry d of it the one
-    /// off the diagonal in the rows and columns other than d (D = 3) or all (D = 2).
-    type NodeConst = (SVector<T, D>, SVector<T, D>);
+    /// g C̄, which is symmetric as C and B are.
+    type NodeConst = Symmetric<T, D>;
     fn node_const(&self, b: &SMatrix<f64, D, D>, _: f64, _: Scale) -> Self::NodeConst {
         let entry = |i: usize, k: usize| {
             let mut sum = 0.0;
@@ -299,40 +298,40 @@ impl<T: Real, const D: usize> ZeroEnergyControl<T, D> for WanControl<D> {
             }
             T::of(self.strength * sum)
         };
-        let diagonal = SVector::from_fn(|d, _| entry(d, d));
-        (diagonal, SVector::from_fn(|d, _| entry((d + 1) % D, (d + 2) % D)))
+        packed(&SMatrix::from_fn(entry))
     }
     #[inline(always)]
     fn stiffness_times<const N: usize>(
         &self,
-        (diagonal, rest): &Self::NodeConst,
+        c: &Self::NodeConst,
         a: &SMatrix<T, D, N>,
     ) -> SMatrix<T, D, N> {
-        let c = SMatrix::<T, D, D>::from_fn(|i, k| {
-            if i == k { diagonal[i] } else { rest[off_diagonal(D, i, k)] }
-        });
-        product(&c, a)
+        product(&unpacked(c), a)
     }
     #[inline(always)]
-    fn add_to(
-        &self,
-        sum: &mut SVector<T, D>,
-        (diagonal, rest): &Self::NodeConst,
-        bond: &Bond<T, D>,
-    ) {
+    fn add_to(&self, sum: &mut SVector<T, D>, c: &Self::NodeConst, bond: &Bond<T, D>) {
+        let c = unpacked(c);
         for i in 0..D {
             for k in 0..D {
-                let c = if i == k { diagonal[i] } else { rest[off_diagonal(D, i, k)] };
-                sum[i] = bond.fma(c, bond.eta[k], sum[i]);
+                sum[i] = bond.fma(c[(i, k)], bond.eta[k], sum[i]);
             }
         }
     }
 }
 
-/// Where [`WanControl`] keeps the entry (i, k), i ≠ k, of a symmetric D × D matrix.
+/// A symmetric D × D matrix: its diagonal, and beside each entry d of it the one off the diagonal in
+/// the rows and columns other than d (D = 3) or all (D = 2).
+pub type Symmetric<T, const D: usize> = (SVector<T, D>, SVector<T, D>);
+
+fn packed<T: Real, const D: usize>(a: &SMatrix<T, D, D>) -> Symmetric<T, D> {
+    (a.diagonal(), SVector::from_fn(|d, _| a[((d + 1) % D, (d + 2) % D)]))
+}
+
+/// The matrix itself.
 #[inline(always)]
-fn off_diagonal(dimension: usize, i: usize, k: usize) -> usize {
-    if dimension == 3 { 3 - i - k } else { 0 }
+pub fn unpacked<T: Real, const D: usize>((diagonal, rest): &Symmetric<T, D>) -> SMatrix<T, D, D> {
+    let off_diagonal = |i, k| if D == 3 { 3 - i - k } else { 0 };
+    SMatrix::from_fn(|i, k| if i == k { diagonal[i] } else { rest[off_diagonal(i, k)] })
 }
 
 /// Correspondence material: H = (Σ μ ω η⊗ξ βV) B, T = ω (P(H) B ξ + Z), B = K⁻¹ of the intact
@@ -382,7 +381,7 @@ impl<L, Z> Correspondence<L, Z> {
     fn per_omega<T: Real, const D: usize>(
         &self,
         bond: &Bond<T, D>,
-        end: End<'_, T, T, Z::NodeConst, (SMatrix<T, D, D>, SMatrix<T, D, D>)>,
+        end: End<'_, T, T, Z::NodeConst, CorrespondenceState<T, D>>,
     ) -> SVector<T, D>
     where
         Z: ZeroEnergyControl<T, D>,
@@ -399,6 +398,11 @@ impl<L, Z> Correspondence<L, Z> {
     }
 }
 
+/// State of a node of [`Correspondence`]: P B − C H, which makes T = ω ((P B − C H) ξ + C η); H; and
+/// Σ T⟨ξ⟩βV.
+pub type CorrespondenceState<T, const D: usize> =
+    (SMatrix<T, D, D>, (SMatrix<T, D, D>, SVector<T, D>));
+
 impl<T, const D: usize, L, Z> Material<T, D> for Correspondence<L, Z>
 where
     T: Real,
@@ -409,12 +413,11 @@ where
     type BondConst = T;
     /// What the control needs.
     type NodeConst = Z::NodeConst;
-    /// B.
-    type FamilyConst = SMatrix<T, D, D>;
-    /// Σ μ ω η⊗ξ βV.
-    type FamilySum = SMatrix<T, D, D>;
-    /// P B − C H, which makes T = ω ((P B − C H) ξ + C η), and H.
-    type NodeState = (SMatrix<T, D, D>, SMatrix<T, D, D>);
+    /// B and Σ μ ω ξ βV.
+    type FamilyConst = (Symmetric<T, D>, SVector<T, D>);
+    /// Σ μ ω η⊗ξ βV and Σ μ ω η βV.
+    type FamilySum = (SMatrix<T, D, D>, SVector<T, D>);
+    type NodeState = CorrespondenceState<T, D>;
     const FOLLOWS_DAMAGE: bool = true;
     const LINEAR: bool = L::LINEAR;
     const STRETCH: bool = false;
@@ -435,33 +438,42 @@ where
         let b = self.shape.invert(&k, family.node, weighted)?;
         let omega_sum = family.sum(|m| m.bond.to_f64());
         let control = self.control.node_const(&b, omega_sum, family.scale);
-        Ok((control, b.map(T::of)))
+        let first = family
+            .members
+            .iter()
+            .fold(SVector::zeros(), |sum, m| sum + m.xi * (m.bond.to_f64() * m.volume));
+        Ok((control, (packed(&b.map(T::of)), first.map(T::of))))
     }
     #[inline(always)]
     fn add_bond(
         &self,
-        sum: &mut SMatrix<T, D, D>,
+        (moment, first): &mut Self::FamilySum,
         bond: &Bond<T, D>,
         end: End<'_, T, T, Self::NodeConst, ()>,
     ) {
         // The small numbers by columns: ξ and ω βV are the same for a whole block of a lattice.
-        let weighted = bond.xi * (*end.bond * end.volume);
+        let weight = *end.bond * end.volume;
+        let weighted = bond.xi * weight;
         for j in 0..D {
             for i in 0..D {
-                sum[(i, j)] = bond.fma(bond.eta[i], weighted[j], sum[(i, j)]);
+                moment[(i, j)] = bond.fma(bond.eta[i], weighted[j], moment[(i, j)]);
             }
         }
+        bond.add_scaled(first, weight, &bond.eta);
     }
     #[inline(always)]
     fn node_state(
         &self,
-        sum: &SMatrix<T, D, D>,
+        (moment, first): &Self::FamilySum,
         c: &Self::NodeConst,
-        b: &SMatrix<T, D, D>,
+        (b, reference): &Self::FamilyConst,
         _: &Self::NodeState,
     ) -> Self::NodeState {
-        let h = product(sum, b);
-        (product(&self.law.stress(&h), b) - self.control.stiffness_times(c, &h), h)
+        let b = unpacked(b);
+        let h = product(moment, &b);
+        let a = product(&self.law.stress(&h), &b) - self.control.stiffness_times(c, &h);
+        let force = product(&a, reference) + self.control.stiffness_times(c, first);
+        (a, (h, force))
     }
     #[inline(always)]
     fn force_state(
@@ -471,22 +483,26 @@ where
     ) -> SVector<T, D> {
         self.per_omega(bond, end) * *end.bond
     }
+    /// −T'β'V, the neighbour's share: seen from the near end T' of the reversed bond is −T.
     #[inline(always)]
     fn add_pair_force(
         &self,
         sum: &mut SVector<T, D>,
         bond: &Bond<T, D>,
-        [near, far]: [End<'_, T, T, Self::NodeConst, Self::NodeState>; 2],
+        [_, far]: [End<'_, T, T, Self::NodeConst, Self::NodeState>; 2],
     ) {
-        // Both ends see the bond from the near one: T' of the reversed bond is −T.
-        bond.add_scaled(sum, *near.bond * near.volume, &self.per_omega(bond, near));
         bond.add_scaled(sum, *far.bond * far.volume, &self.per_omega(bond, far));
     }
+    /// Σ T⟨ξ⟩βV, the node's own share.
     #[inline(always)]
-    fn detached(&self, b: &Self::FamilyConst) -> bool {
-        b.trace() == T::zero()
+    fn node_force(&self, _: &Self::NodeConst, (_, (_, force)): &Self::NodeState) -> SVector<T, D> {
+        *force
     }
-    fn fault(&self, (_, h): &Self::NodeState) -> Option<f64> {
+    #[inline(always)]
+    fn detached(&self, ((diagonal, _), _): &Self::FamilyConst) -> bool {
+        diagonal.sum() == T::zero()
+    }
+    fn fault(&self, (_, (h, _)): &Self::NodeState) -> Option<f64> {
         let j = determinant(&(h + SMatrix::identity())).to_f64();
         (j <= 0.0 || j.is_nan()).then_some(j)
     }
@@ -499,7 +515,7 @@ where
     Z: ZeroEnergyControl<T, D>,
 {
     #[inline(always)]
-    fn stress(&self, _: &Self::NodeConst, (_, h): &Self::NodeState) -> SMatrix<T, D, D> {
+    fn stress(&self, _: &Self::NodeConst, (_, (h, _)): &Self::NodeState) -> SMatrix<T, D, D> {
         self.law.cauchy(h)
     }
 }
@@ -511,7 +527,7 @@ where
     Z: ZeroEnergyControl<T, D>,
 {
     #[inline(always)]
-    fn node_energy(&self, _: &Self::NodeConst, (_, h): &Self::NodeState) -> T {
+    fn node_energy(&self, _: &Self::NodeConst, (_, (h, _)): &Self::NodeState) -> T {
         self.law.energy(h)
     }
     #[inline(always)]
@@ -520,7 +536,8 @@ where
         bond: &Bond<T, D>,
         end: End<'_, T, T, Self::NodeConst, Self::NodeState>,
     ) -> T {
-        let z = bond.eta - end.state.1 * bond.xi;
+        let (_, (h, _)) = end.state;
+        let z = bond.eta - h * bond.xi;
         T::of(0.5) * *end.bond * self.control.stiffness_times(end.node, &z).dot(&z)
     }
 }
