@@ -133,8 +133,8 @@ pub mod prelude {
     pub use pd_damage::{
         AnyOf, BondEnergy, BondModel, BondStrength, CrackOpening, CrackPath, CrackPlane, CrackTip,
         CriterionExt, CriticalStretch, Either, FractureEnergy, FractureToughness, Interfaces,
-        LocalStretch, Measures, Mirror, ModeEnergies, PowerLaw, Separated, Signs, Strengths,
-        TipTrack, TsaiHill, TsaiHill3,
+        LocalEnergy, LocalStretch, Measures, Mirror, ModeEnergies, PowerLaw, Separated, Signs,
+        Strengths, TipTrack, TsaiHill, TsaiHill3,
     };
     pub use pd_models::{
         BondAssociated, BondBased, BondLaw, Constitutive, Correspondence, Isotropic, Lamina,

@@ -1,6 +1,7 @@
 //! Criteria on the energy of a bond: Foster's, and Willberg's that tell modes apart.
 
 use crate::calibration::{CrackPlane, FractureEnergy};
+use pd_core::bond::Scale;
 use pd_core::damage::{DamageCriterion, TestedBond};
 use pd_core::influence::Influence;
 use pd_core::{EnergySplit, Error, Material, Real, Result};
@@ -21,6 +22,63 @@ impl Influence for Uniform {
     #[inline(always)]
     fn weight(&self, _: f64) -> f64 {
         1.0
+    }
+}
+
+/// A criterion on the energy of a bond whose critical energies can be scaled.
+pub trait EnergyCriterion<T: Real, const D: usize, M: Material<T, D>>: Send + Sync + Sized {
+    /// Critical energy of a bond of length `ratio` · δ over that of the criterion itself.
+    fn shape(&self, ratio: f64) -> f64 {
+        let _ = ratio;
+        1.0
+    }
+    /// Failure index with the critical energies times `share`.
+    fn index_at(&self, tested: &TestedBond<'_, T, D, M, (), ()>, share: T) -> T;
+}
+
+/// Critical energies of a body whose horizon varies by node, see [`BondEnergy::at_horizon`].
+///
+/// A crack costs G_c ∝ w_C δ^(D+1), so w_C (δ/δ_i)^(D+1) costs the same at every node whose family
+/// looks alike in units of δ_i. Of a bond each end that has it in its family carries half the energy
+/// and half the critical energy: a bond of both breaks at their mean, one that a single end has at
+/// half of that end's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalEnergy<C> {
+    criterion: C,
+    horizon: f64,
+}
+
+impl<C> LocalEnergy<C> {
+    fn new(criterion: C, horizon: f64) -> Result<Self> {
+        let horizon = Error::positive("horizon δ of the critical bond energy [m]", horizon)?;
+        Ok(Self { criterion, horizon })
+    }
+}
+
+impl<T, const D: usize, M, C> DamageCriterion<T, D, M> for LocalEnergy<C>
+where
+    T: Real,
+    M: Material<T, D>,
+    C: EnergyCriterion<T, D, M>,
+{
+    /// δ_i in units of Δx.
+    type NodeConst = T;
+    type NodeValue = ();
+
+    fn node_const(&self, _: usize, scale: Scale) -> T {
+        T::of(scale.horizon)
+    }
+    #[inline(always)]
+    fn index(&self, tested: &TestedBond<'_, T, D, M, T, ()>) -> T {
+        let length = tested.bond.xi.norm().to_f64();
+        let share = |horizon: T| {
+            let horizon = horizon.to_f64();
+            let size = (self.horizon / (horizon * tested.unit)).powi(D as i32 + 1);
+            T::of(size * self.criterion.shape(length / horizon))
+        };
+        let ([near, far], [a, b]) = (tested.ends, tested.constants);
+        let share = (near.volume * share(*a) + far.volume * share(*b)) * T::of(0.5);
+        self.criterion.index_at(&tested.with_constants([&(), &()]), share)
     }
 }
 
@@ -85,6 +143,14 @@ impl<W: Influence> BondEnergy<W> {
         self.factor = 0.5;
         self
     }
+    /// These critical energies where the horizon is `horizon` in metres, and elsewhere those of the
+    /// same fracture energy: for bodies with one horizon per node.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] unless positive.
+    pub fn at_horizon(self, horizon: f64) -> Result<LocalEnergy<Self>> {
+        LocalEnergy::new(self, horizon)
+    }
     /// w₀ in Pa/m^D.
     pub fn critical(&self) -> f64 {
         self.critical
@@ -130,10 +196,25 @@ where
     fn index(&self, tested: &TestedBond<'_, T, D, M, (), ()>) -> T {
         let xi = tested.bond.xi;
         let length = xi.dot(&xi).sqrt().to_f64() * tested.unit;
-        let critical = self.critical * self.weight.weight(length / self.horizon);
-        let index = tested.energy() * T::of(self.factor / (critical * cell::<D>(tested.unit)));
+        self.index_at(tested, T::of(self.weight.weight(length / self.horizon)))
+    }
+}
+
+impl<T, const D: usize, M, W> EnergyCriterion<T, D, M> for BondEnergy<W>
+where
+    T: Real,
+    M: Material<T, D>,
+    W: Influence,
+{
+    #[inline(always)]
+    fn shape(&self, ratio: f64) -> f64 {
+        self.weight.weight(ratio)
+    }
+    #[inline(always)]
+    fn index_at(&self, tested: &TestedBond<'_, T, D, M, (), ()>, share: T) -> T {
+        let critical = share * T::of(self.critical * cell::<D>(tested.unit) / self.factor);
         let counts = self.sign == Sign::Both || in_tension(tested);
-        if counts { index } else { T::zero() }
+        if counts { tested.energy() / critical } else { T::zero() }
     }
 }
 
@@ -180,9 +261,13 @@ impl ModeEnergies {
         self.factor = 0.5;
         self
     }
-    /// (w_iso/w_C of the bond's sign, w_shr/w_C).
+    /// (w_iso/w_C of the bond's sign, w_shr/w_C) with the w_C times `share`.
     #[inline(always)]
-    fn ratios<T, const D: usize, M>(&self, tested: &TestedBond<'_, T, D, M, (), ()>) -> (T, T)
+    fn ratios<T, const D: usize, M>(
+        &self,
+        tested: &TestedBond<'_, T, D, M, (), ()>,
+        share: T,
+    ) -> (T, T)
     where
         T: Real,
         M: EnergySplit<T, D>,
@@ -195,7 +280,7 @@ impl ModeEnergies {
         } else {
             T::of(scale * compression)
         };
-        (iso * mode, shear * T::of(scale / self.shear))
+        (iso * mode / share, shear * T::of(scale / self.shear) / share)
     }
 }
 
@@ -217,6 +302,14 @@ impl PowerLaw {
     pub fn as_printed(modes: ModeEnergies) -> Self {
         Self { modes, as_printed: true }
     }
+    /// These critical energies where the horizon is `horizon` in metres, and elsewhere those of the
+    /// same fracture energies: for bodies with one horizon per node.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] unless positive.
+    pub fn at_horizon(self, horizon: f64) -> Result<LocalEnergy<Self>> {
+        LocalEnergy::new(self, horizon)
+    }
 }
 
 impl<T, const D: usize, M> DamageCriterion<T, D, M> for PowerLaw
@@ -229,8 +322,15 @@ where
 
     #[inline(always)]
     fn index(&self, tested: &TestedBond<'_, T, D, M, (), ()>) -> T {
+        self.index_at(tested, T::one())
+    }
+}
+
+impl<T: Real, const D: usize, M: EnergySplit<T, D>> EnergyCriterion<T, D, M> for PowerLaw {
+    #[inline(always)]
+    fn index_at(&self, tested: &TestedBond<'_, T, D, M, (), ()>, share: T) -> T {
         let ModeEnergies { tension, compression, shear, .. } = self.modes;
-        let (iso, shr) = self.modes.ratios(tested);
+        let (iso, shr) = self.modes.ratios(tested, share);
         if !self.as_printed {
             return iso * iso + shr * shr;
         }
@@ -254,6 +354,14 @@ impl Separated {
     pub fn new(modes: ModeEnergies) -> Self {
         Self { modes }
     }
+    /// These critical energies where the horizon is `horizon` in metres, and elsewhere those of the
+    /// same fracture energies: for bodies with one horizon per node.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] unless positive.
+    pub fn at_horizon(self, horizon: f64) -> Result<LocalEnergy<Self>> {
+        LocalEnergy::new(self, horizon)
+    }
 }
 
 impl<T, const D: usize, M> DamageCriterion<T, D, M> for Separated
@@ -266,7 +374,14 @@ where
 
     #[inline(always)]
     fn index(&self, tested: &TestedBond<'_, T, D, M, (), ()>) -> T {
-        let (iso, shear) = self.modes.ratios(tested);
+        self.index_at(tested, T::one())
+    }
+}
+
+impl<T: Real, const D: usize, M: EnergySplit<T, D>> EnergyCriterion<T, D, M> for Separated {
+    #[inline(always)]
+    fn index_at(&self, tested: &TestedBond<'_, T, D, M, (), ()>, share: T) -> T {
+        let (iso, shear) = self.modes.ratios(tested, share);
         iso.max(shear)
     }
 }

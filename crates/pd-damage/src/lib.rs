@@ -8,7 +8,9 @@ pub mod critical_stretch;
 pub mod measures;
 pub mod tsai_hill;
 
-pub use bond_energy::{BondEnergy, ModeEnergies, PowerLaw, Separated, Uniform};
+pub use bond_energy::{
+    BondEnergy, EnergyCriterion, LocalEnergy, ModeEnergies, PowerLaw, Separated, Uniform,
+};
 pub use calibration::{BondModel, BondStrength, CrackPlane, FractureEnergy, FractureToughness};
 pub use combine::{AnyOf, CriterionExt, Either, Interfaces, Sparing};
 pub use crack_opening::CrackOpening;
