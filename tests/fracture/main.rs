@@ -8,3 +8,4 @@ mod crack_through_width;
 mod criteria_bonds;
 mod criteria_disagree;
 mod energy_of_fracture;
+mod local_energy;
