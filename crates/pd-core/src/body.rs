@@ -209,7 +209,7 @@ where
         policy.validate(nodes)?;
         let table = family.per_bond(&|xi, scale| material.bond_const(xi, scale));
         let cracks = policy.cracks();
-        let mut bits = P::BITS.then(|| family.intact());
+        let mut bits = P::BITS.then(|| family.intact(&|node| policy.can_break(node)));
         let mut reference_volume = None;
         if let Some(bits) = &mut bits {
             for crack in &cracks.surfaces {
@@ -1076,7 +1076,7 @@ where
             state.numbers("node constants", self.node_const.as_slice())?;
             state.numbers("family constants", self.family_const.as_slice())?;
         }
-        state.bytes("bonds", self.bits.as_ref().map_or(&[], F::bits_as_bytes))?;
+        state.bytes("bonds", &self.bits.as_ref().map_or_else(Vec::new, F::bits_as_bytes))?;
         state.counts("broken bonds", &[self.broken])?;
         state.numbers("worst index", &[self.worst])
     }

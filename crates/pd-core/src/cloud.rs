@@ -513,7 +513,7 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         (table.own.capacity() + table.mate.as_ref().map_or(0, Vec::capacity)) * size_of::<K>()
     }
 
-    fn intact(&self) -> CloudBits {
+    fn intact(&self, _breakable: &(dyn Fn(usize) -> bool + Sync)) -> CloudBits {
         let mut row = Vec::with_capacity(self.nodes() + 1);
         let mut total = 0;
         for node in 0..self.nodes() {
@@ -571,11 +571,11 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
             *mark.get_mut() = from.load(Relaxed);
         }
     }
-    fn bits_as_bytes(bits: &CloudBits) -> &[u8] {
-        &bits.bytes
+    fn bits_as_bytes(bits: &CloudBits) -> Vec<u8> {
+        bits.bytes.clone()
     }
     fn bits_from_bytes(&self, bytes: &[u8]) -> Option<CloudBits> {
-        let mut bits = self.intact();
+        let mut bits = self.intact(&|_| true);
         if bits.bytes.len() != bytes.len() {
             return None;
         }

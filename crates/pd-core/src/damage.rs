@@ -138,6 +138,13 @@ pub trait DamageCriterion<T: Real, const D: usize, M: Material<T, D>>: Send + Sy
         None
     }
 
+    /// False if the index of every bond of the node is always 0: such bonds are neither tested nor
+    /// need they a bit.
+    fn can_break(&self, node: usize) -> bool {
+        let _ = node;
+        true
+    }
+
     /// Refuses parameters that do not fit a body of `nodes` nodes.
     ///
     /// # Errors
@@ -195,6 +202,11 @@ pub trait DamagePolicy<T: Real, const D: usize, M: Material<T, D>>: Send + Sync 
     fn per_square_strain(&self) -> Option<T> {
         None
     }
+    /// See [`DamageCriterion::can_break`].
+    fn can_break(&self, node: usize) -> bool {
+        let _ = node;
+        false
+    }
     /// Tests all bonds and breaks those that fail.
     fn check<F: Family<T, D>>(
         &self,
@@ -231,7 +243,8 @@ impl<T: Real, const D: usize, M: Material<T, D>> DamagePolicy<T, D, M> for NoDam
     }
 }
 
-/// A body with cracks that do not grow: it holds bits and tests nothing.
+/// A body with cracks that do not grow: it tests nothing, and a lattice holds bits along the cracks
+/// only.
 #[derive(Default)]
 pub struct Precracked<const D: usize> {
     cracks: Cracks<D>,
@@ -365,6 +378,9 @@ where
     }
     fn per_square_strain(&self) -> Option<T> {
         self.criterion.per_square_strain()
+    }
+    fn can_break(&self, node: usize) -> bool {
+        self.criterion.can_break(node)
     }
     fn check<F: Family<T, D>>(
         &self,

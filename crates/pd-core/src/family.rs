@@ -145,8 +145,9 @@ pub trait Family<T: Real, const D: usize>: Send + Sync + Sized {
     /// Bytes held by such a table.
     fn per_bond_bytes<K: Copy + Send + Sync>(table: &Self::PerBond<K>) -> usize;
 
-    /// All bonds intact.
-    fn intact(&self) -> Self::Bits;
+    /// All bonds intact. Bonds with an end that is not `breakable` are never tested; a family may hold
+    /// the bits of others alone, and of these once they are cut.
+    fn intact(&self, breakable: &(dyn Fn(usize) -> bool + Sync)) -> Self::Bits;
     /// Bytes held by the bits.
     fn bits_bytes(bits: &Self::Bits) -> usize;
     /// Cuts every bond for which `cuts(node, neighbour)` (node < neighbour) holds; returns how many.
@@ -163,7 +164,7 @@ pub trait Family<T: Real, const D: usize>: Send + Sync + Sized {
     /// Marks in `bits` the nodes that are marked in `other`, and no others.
     fn copy_marks(bits: &mut Self::Bits, other: &Self::Bits);
     /// The bits as bytes, to be kept.
-    fn bits_as_bytes(bits: &Self::Bits) -> &[u8];
+    fn bits_as_bytes(bits: &Self::Bits) -> Vec<u8>;
     /// The bits that were kept; none if they are not a part of this family's bonds.
     fn bits_from_bytes(&self, bytes: &[u8]) -> Option<Self::Bits>;
     /// Visits the neighbours of `node` in ascending order, broken ones too.

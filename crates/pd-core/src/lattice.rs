@@ -31,6 +31,9 @@ const CHUNK: usize = 64;
 const PAGE: usize = 4096;
 const PLANE_IN_PAGE: usize = 26 * 64;
 
+/// The row of a block that holds no bits, as all its bonds are intact.
+const WHOLE: u32 = u32::MAX;
+
 /// Most sites that a kernel takes together.
 const WIDEST: usize = 2 * LANES;
 /// Sites before the first node, one block: a neighbour before the arrays is then before every lane of
@@ -77,10 +80,15 @@ struct Layout<const D: usize> {
     sites: usize,
 }
 
-/// One bit per undirected bond, those of eight consecutive nodes and one offset in a byte.
+/// One bit per undirected bond, those of eight consecutive nodes and one offset in a byte. Blocks
+/// whose bonds can all neither break nor are cut hold none.
 #[derive(Debug)]
 pub struct LatticeBits {
-    /// `bytes[block * half + h]`, offset `half + h`.
+    /// Per block: its row, or [`WHOLE`].
+    rows: Vec<u32>,
+    /// Per row: its block.
+    blocks: Vec<u32>,
+    /// `bytes[row * half + h]`, offset `half + h`.
     bytes: Vec<u8>,
     half: usize,
     /// Per block: 1 if every neighbour of every lane is there and intact.
@@ -243,34 +251,40 @@ impl<T: Real, const D: usize> Lattice<T, D> {
     /// Presence of the neighbours of the lanes of `block` along an offset.
     #[inline(always)]
     fn present_byte(&self, block: usize, offset: usize) -> u8 {
+        self.beyond(&self.present, block, offset)
+    }
+    /// The bits of `mask`, one per site, at the neighbours of the lanes of `block` along an offset.
+    #[inline(always)]
+    fn beyond(&self, mask: &[u8], block: usize, offset: usize) -> u8 {
         let start = (block * LANES) as isize + self.offsets[offset].site;
         if start < 0 || start as usize >= self.sites {
             return 0;
         }
-        byte_at(start as usize, |b| self.present[b])
+        byte_at(start as usize, |b| mask[b])
     }
     fn node_at(&self, cell: [isize; D]) -> Option<usize> {
         let cells = self.grid.cells();
         let inside = (0..D).all(|d| (0..cells[d] as isize).contains(&cell[d]));
         if inside { self.grid.node(cell.map(|c| c as usize)) } else { None }
     }
-    /// Where the bit of the bond from `site` along `offset` is: (byte, bit).
+    /// Where the bit of the bond from `site` along `offset` is: block, half offset and lane.
     #[inline(always)]
-    fn bit_of(&self, site: usize, offset: usize) -> (usize, usize) {
+    fn bit_of(&self, site: usize, offset: usize) -> (usize, usize, usize) {
         let half = self.half();
         let (owner, h) = if offset >= half {
             (site, offset - half)
         } else {
             (site.wrapping_add_signed(self.offsets[offset].site), half - 1 - offset)
         };
-        ((owner / LANES) * half + h, owner % LANES)
+        (owner / LANES, h, owner % LANES)
     }
     /// Clears the bit of a bond and marks its ends; true if it was intact.
     fn lose(&self, bits: &mut LatticeBits, site: usize, offset: usize) -> bool {
-        let (byte, bit) = self.bit_of(site, offset);
-        let intact = bits.bytes[byte] >> bit & 1 == 1;
-        bits.bytes[byte] &= !(1 << bit);
+        let (block, h, lane) = self.bit_of(site, offset);
+        let intact = self.own_byte(bits, block, h) >> lane & 1 == 1;
         if intact {
+            let row = self.row_of(bits, block);
+            bits.bytes[row * bits.half + h] &= !(1 << lane);
             for s in [site, site.wrapping_add_signed(self.offsets[offset].site)] {
                 bits.full[s / LANES].store(0, Relaxed);
                 bits.marks[s / LANES].fetch_or(1 << (s % LANES), Relaxed);
@@ -278,15 +292,48 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         }
         intact
     }
+    /// The row of a block, which gets one if it has none.
+    fn row_of(&self, bits: &mut LatticeBits, block: usize) -> usize {
+        if bits.rows[block] == WHOLE {
+            bits.rows[block] = bits.blocks.len() as u32;
+            bits.blocks.push(block as u32);
+            bits.bytes.extend((0..bits.half).map(|h| self.whole_byte(block, h)));
+        }
+        bits.rows[block] as usize
+    }
+    /// The bonds of a block along the offset `half + h` where all are intact.
+    #[inline(always)]
+    fn whole_byte(&self, block: usize, h: usize) -> u8 {
+        self.present[block] & self.present_byte(block, self.half() + h)
+    }
+    #[inline(always)]
+    fn own_byte(&self, bits: &LatticeBits, block: usize, h: usize) -> u8 {
+        match bits.rows[block] {
+            WHOLE => self.whole_byte(block, h),
+            row => bits.bytes[row as usize * bits.half + h],
+        }
+    }
     #[inline(always)]
     fn intact_byte(&self, bits: &LatticeBits, block: usize, offset: usize) -> u8 {
         let half = bits.half;
         if offset >= half {
-            bits.bytes[block * half + offset - half]
+            self.own_byte(bits, block, offset - half)
         } else {
             let (h, start) = (half - 1 - offset, self.site_beyond(block, offset));
             // No node lies before the arrays.
-            if start < self.sites { byte_at(start, |b| bits.bytes[b * half + h]) } else { 0 }
+            if start < self.sites { byte_at(start, |b| self.own_byte(bits, b, h)) } else { 0 }
+        }
+    }
+    /// No bits: every bond is intact.
+    fn no_bits(&self) -> LatticeBits {
+        let blocks = self.sites / LANES;
+        LatticeBits {
+            rows: vec![WHOLE; blocks + 1],
+            blocks: Vec::new(),
+            bytes: Vec::new(),
+            half: self.half(),
+            full: self.interior.iter().map(|&i| AtomicU8::new(i.into())).collect(),
+            marks: (0..blocks).map(|_| AtomicU8::new(0)).collect(),
         }
     }
 }
@@ -579,7 +626,7 @@ where
 #[cfg_attr(debug_assertions, multiversion(targets("x86_64+avx2+fma")))]
 fn break_chunk<T, const D: usize, B, I>(
     job: &TestJob<'_, T, D, B, I>,
-    first: usize,
+    blocks: &[u32],
     bytes: &mut [u8],
 ) -> Tally
 where
@@ -596,11 +643,8 @@ where
     // Kept in memory: the optimiser vectorises towards eight numbers stored side by side.
     let mut index = [T::zero(); LANES];
     let index = std::hint::black_box(&mut index);
-    for (b, bytes) in bytes.chunks_exact_mut(half).enumerate() {
-        let block = first + b;
-        if lattice.present[block] == 0 {
-            continue;
-        }
+    for (&block, bytes) in blocks.iter().zip(bytes.chunks_exact_mut(half)) {
+        let block = block as usize;
         let start = block * LANES;
         let near: Planes<'_, T, LANES> = job.u.block(start);
         let own_block = job.input.block::<LANES>(start);
@@ -694,27 +738,38 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         table.capacity() * size_of::<K>()
     }
 
-    fn intact(&self) -> LatticeBits {
-        let half = self.half();
+    fn intact(&self, breakable: &(dyn Fn(usize) -> bool + Sync)) -> LatticeBits {
+        let mut bits = self.no_bits();
+        let half = bits.half;
+        let mut able = vec![0; self.present.len()];
+        for (node, &site) in self.node_site.iter().enumerate() {
+            able[site as usize / LANES] |= u8::from(breakable(node)) << (site as usize % LANES);
+        }
+        let breaks = |&block: &usize| {
+            let own = able[block];
+            own != 0 && (half..2 * half).any(|o| own & self.beyond(&able, block, o) != 0)
+        };
         let blocks = self.sites / LANES;
-        let mut bytes = vec![0; blocks * half];
-        bytes.par_chunks_mut(half).enumerate().for_each(|(block, bytes)| {
-            let mask = self.present[block];
-            if mask != 0 {
-                for (h, byte) in bytes.iter_mut().enumerate() {
-                    *byte = mask & self.present_byte(block, half + h);
-                }
+        bits.blocks =
+            (0..blocks).into_par_iter().filter(breaks).map(|block| block as u32).collect();
+        bits.blocks.shrink_to_fit();
+        for (row, &block) in bits.blocks.iter().enumerate() {
+            bits.rows[block as usize] = row as u32;
+        }
+        bits.bytes = vec![0; bits.blocks.len() * half];
+        bits.bytes.par_chunks_mut(half).zip(&bits.blocks).for_each(|(bytes, &block)| {
+            for (h, byte) in bytes.iter_mut().enumerate() {
+                *byte = self.whole_byte(block as usize, h);
             }
         });
-        LatticeBits {
-            bytes,
-            half,
-            full: self.interior.iter().map(|&i| AtomicU8::new(i.into())).collect(),
-            marks: (0..blocks).map(|_| AtomicU8::new(0)).collect(),
-        }
+        bits
     }
     fn bits_bytes(bits: &LatticeBits) -> usize {
-        bits.bytes.capacity() + bits.full.capacity() + bits.marks.capacity()
+        let LatticeBits { rows, blocks, bytes, full, marks, .. } = bits;
+        4 * (rows.capacity() + blocks.capacity())
+            + bytes.capacity()
+            + full.capacity()
+            + marks.capacity()
     }
     fn cut(&self, bits: &mut LatticeBits, cuts: &(dyn Fn(usize, usize) -> bool + Sync)) -> usize {
         let half = self.half();
@@ -729,6 +784,8 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
                 }
             }
         }
+        bits.blocks.shrink_to_fit();
+        bits.bytes.shrink_to_fit();
         count
     }
     fn isolate(&self, bits: &mut LatticeBits, node: usize) -> usize {
@@ -759,29 +816,48 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
     fn copy_bits(bits: &LatticeBits) -> LatticeBits {
         let copy =
             |from: &[AtomicU8]| from.iter().map(|x| AtomicU8::new(x.load(Relaxed))).collect();
-        let LatticeBits { bytes, half, full, marks } = bits;
-        LatticeBits { bytes: bytes.clone(), half: *half, full: copy(full), marks: copy(marks) }
+        let LatticeBits { rows, blocks, bytes, half, full, marks } = bits;
+        LatticeBits {
+            rows: rows.clone(),
+            blocks: blocks.clone(),
+            bytes: bytes.clone(),
+            half: *half,
+            full: copy(full),
+            marks: copy(marks),
+        }
     }
     fn copy_marks(bits: &mut LatticeBits, other: &LatticeBits) {
         for (mark, from) in bits.marks.iter_mut().zip(&other.marks) {
             *mark.get_mut() = from.load(Relaxed);
         }
     }
-    fn bits_as_bytes(bits: &LatticeBits) -> &[u8] {
-        &bits.bytes
+    /// Every row with its block before it.
+    fn bits_as_bytes(bits: &LatticeBits) -> Vec<u8> {
+        let rows = bits.blocks.iter().zip(bits.bytes.chunks_exact(bits.half));
+        rows.flat_map(|(block, row)| [&block.to_le_bytes()[..], row].concat()).collect()
     }
     fn bits_from_bytes(&self, bytes: &[u8]) -> Option<LatticeBits> {
-        let mut bits = self.intact();
-        let fits = bits.bytes.len() == bytes.len()
-            && bits.bytes.iter().zip(bytes).all(|(all, kept)| kept & !all == 0);
-        if !fits {
+        let mut bits = self.no_bits();
+        let half = bits.half;
+        let rows = bytes.chunks_exact(size_of::<u32>() + half);
+        if !rows.remainder().is_empty() {
             return None;
         }
-        let half = self.half();
-        for (at, kept) in bytes.iter().enumerate() {
-            let lost = bits.bytes[at] & !kept;
-            for lane in (0..LANES).filter(|lane| lost >> lane & 1 == 1) {
-                self.lose(&mut bits, at / half * LANES + lane, half + at % half);
+        for row in rows {
+            let (block, kept) = row.split_first_chunk()?;
+            let block = u32::from_le_bytes(*block) as usize;
+            if block >= self.sites / LANES || bits.rows[block] != WHOLE {
+                return None;
+            }
+            self.row_of(&mut bits, block);
+            for (h, kept) in kept.iter().enumerate() {
+                let all = self.whole_byte(block, h);
+                if kept & !all != 0 {
+                    return None;
+                }
+                for lane in (0..LANES).filter(|lane| (all & !kept) >> lane & 1 == 1) {
+                    self.lose(&mut bits, block * LANES + lane, half + h);
+                }
             }
         }
         Self::clear_marks(&mut bits);
@@ -798,8 +874,8 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
             let to = std::array::from_fn(|d| cell[d] as isize + offset.cell[d]);
             if let Some(node) = self.node_at(to) {
                 let intact = bits.is_none_or(|bits| {
-                    let (byte, bit) = self.bit_of(site, o);
-                    bits.bytes[byte] >> bit & 1 == 1
+                    let (block, h, lane) = self.bit_of(site, o);
+                    self.own_byte(bits, block, h) >> lane & 1 == 1
                 });
                 visit(Neighbour { node, xi: offset.xi64, volume: offset.volume64, intact });
             }
@@ -862,8 +938,9 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
     {
         let (full, marks) = (&bits.full[..], &bits.marks[..]);
         let job = TestJob { lattice: self, test, table, u, input, full, marks };
+        let blocks = &bits.blocks[..];
         break_pieces(&mut bits.bytes, CHUNK * bits.half, &|chunk, bytes| {
-            break_chunk(&job, chunk * CHUNK, bytes)
+            break_chunk(&job, &blocks[chunk * CHUNK..], bytes)
         })
     }
 }

@@ -48,6 +48,9 @@ where
         let index = self.criterion.index(&tested.with_constants([ca, cb]));
         if *a * *b > T::zero() { index } else { T::zero() }
     }
+    fn can_break(&self, node: usize) -> bool {
+        !self.nodes.contains(node) && self.criterion.can_break(node)
+    }
     fn validate(&self, nodes: usize) -> Result<()> {
         let last = self.nodes.iter().last().unwrap_or(0);
         let need = "a node of the body (was the set made for another grid?)";
