@@ -95,31 +95,34 @@ fn a_damaged_lattice_is_motion_and_bits() {
     assert!(rest <= 40.0 * nodes, "{} bytes a node", rest / nodes);
 }
 
-/// A cloud holds rows: per directed bond the neighbour and the bond's shape, which bonds of the same
-/// ξ, volumes and horizons share; a bit of damage.
+/// A cloud that is a lattice holds batches of sixteen nodes' bonds, which share their shape and tell
+/// their far ends by one number; where rows of nodes end, the far ends of a batch are listed.
 #[test]
-fn a_cloud_holds_compressed_rows() {
+fn a_cloud_holds_batches() {
     fn check<T: Real>(scalar: usize) {
-        let points = Points::from_grid(&cube(16.0));
+        let edge = 16;
+        let points = Points::from_grid(&cube(edge as f64));
         let cloud = Cloud::<T, 3>::new(&points, Horizon::Cells(3.015), Quadrature::None);
         let cloud = cloud.expect("family");
         let (nodes, directed) = (points.len(), 2 * Family::<T, 3>::bonds(&cloud));
         let (bits, family, constants) = sizes(cloud);
         println!(
-            "{}: {bits:.3} bits per bond, {:.1} bytes a directed bond",
+            "{}: {bits:.3} bits per bond, {:.2} bytes a directed bond",
             T::NAME,
             family as f64 / directed as f64
         );
-        let row = 4 + 2;
-        assert!(family >= directed * row);
-        // 122 shapes of ξ, 1/|ξ|² and two volumes.
-        let shapes = 122 * 8 * scalar;
-        // Where the row starts, position and volume of every node; a sample of every shape.
-        let exact = directed * row + nodes * (8 + 3 * 8 + 8) + shapes + 122 * 8;
+        // A row of the cube is a block. Along y and z a shape is there for all of it or none.
+        let blocks = edge * edge;
+        let batches = 122 * blocks;
+        // 122 shapes of ξ, 1/|ξ|², two volumes and two horizons, and a sample of each.
+        let shapes = 122 * (8 * scalar + 8);
+        // Where blocks start, position and volume of every node.
+        let exact = 8 * batches + 16 * (blocks + 1) + nodes * (3 * 8 + 8) + shapes;
         assert!(family <= exact + 256, "{family} bytes, {exact} needed");
         assert_eq!(constants, 122 * 5 * scalar);
-        // One bit per directed bond, rows rounded up to bytes, and where each row starts.
-        assert!(bits < 2.0 + (nodes * (7 + 64 + 8)) as f64 / (0.5 * directed as f64), "{bits}");
+        // Two bytes a batch, and a byte to mark each node.
+        let most = 8 * (2 * batches + nodes);
+        assert!(bits <= (most + 64) as f64 / (0.5 * directed as f64), "{bits}");
     }
     check::<f64>(8);
     check::<f32>(4);

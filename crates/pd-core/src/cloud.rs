@@ -1,34 +1,43 @@
-//! Families of a point cloud: compressed rows of neighbours, one horizon or one per node.
+//! Families of a point cloud, with one horizon or one per node.
 //!
 //! With one horizon per node the row of node i lists H_i ∪ H'_i, the family and the dual family
 //! (Zhao, dual horizon): f_i = Σ_{H_i} T_i V_j − Σ_{H'_i} T_j V_j. β V is 0 where a neighbour is
 //! in one of the two only.
+//!
+//! Nodes lie in blocks of [`BLOCK`], as they are numbered. A node's bonds are sorted by ξ, so that
+//! bonds of one shape at several nodes of a block come together: such a [`Batch`] is computed at
+//! once, a bond to a lane, like an offset of a lattice. Blocks whose nodes share few shapes are
+//! computed bond by bond.
 
 use crate::bond::{Arithmetic, Bond, Member, Scale};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
-use crate::field::{Field, Inputs};
+use crate::field::{Field, Inputs, Planes};
 use crate::parallel::{map_pieces, sweep_pieces};
 use crate::points::Points;
 use crate::quadrature::Quadrature;
-use crate::record::Record;
+use crate::record::{LANES, Record};
 use crate::search::neighbours;
 use crate::{Error, Real, Result};
 use multiversion::multiversion;
 use multiversion::target::target_cfg_f;
 use nalgebra::SVector;
 use rayon::prelude::*;
+use std::cmp::Ordering;
 use std::ops::Range;
-use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering::Relaxed};
+
+/// Consecutive nodes whose bonds are sorted together.
+const BLOCK: usize = 2 * LANES;
 
 /// Nodes that one task works on: fixed, so that nothing depends on the number of threads.
-const CHUNK: usize = 1024;
+const CHUNK: usize = 64 * BLOCK;
 
 /// A neighbour within rounding of a whole number of units away is that number away, so that a
 /// lattice given as points has exactly the bonds of the lattice.
 const SNAP: f64 = 8.0 * f64::EPSILON;
 
-/// What a bond is besides its nodes. Bonds of the same shape share one where there are few: in a
-/// cloud that is a lattice, or lattices of a few spacings, a bond costs six bytes.
+/// What a bond is besides its nodes. Bonds of the same shape share one where there are few, as in
+/// clouds that are a lattice or lattices of a few spacings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct BondShape<T, const D: usize> {
     xi: SVector<T, D>,
@@ -47,15 +56,68 @@ pub struct Cloud<T, const D: usize> {
     unit: f64,
     /// One entry, or one per node.
     horizons: Vec<f64>,
-    quadrature: Quadrature,
-    /// Row i is `neighbour[start[i]..start[i + 1]]`, ascending.
-    start: Vec<usize>,
-    neighbour: Vec<u32>,
-    /// The shape of every bond; empty if every bond has its own.
+    /// Where the batches of every block begin, and what they list; one entry more than blocks.
+    blocks: Vec<Start>,
+    batches: Vec<Batch>,
+    /// Far ends of the bonds whose batch does not tell them.
+    listed: Vec<u32>,
+    /// Shapes of the bonds listed; empty if every bond has its own.
     kind: Vec<u16>,
     shapes: Vec<BondShape<T, D>>,
     /// Nodes of one bond of each shape; empty if every bond has its own.
     samples: Vec<[u32; 2]>,
+}
+
+/// A place in the batches and in what they list.
+#[derive(Debug, Clone, Copy, Default)]
+struct Start {
+    batch: usize,
+    listed: usize,
+}
+
+/// Up to [`BLOCK`] bonds of a block: of one shape, one at each node of some; or of one node.
+#[derive(Debug, Clone, Copy)]
+struct Batch {
+    /// The far end at the block's first node, if it is one further at each node; else [`LISTED`].
+    far: u32,
+    /// The shape of the bonds; or [`ROW`] and which node of the block they belong to.
+    kind: u16,
+    /// Which bonds there are: a bit per node of the block, or the lowest ones for one node.
+    there: u16,
+}
+
+/// The far ends of a batch are in the list.
+const LISTED: u32 = u32::MAX;
+/// The bonds of a batch belong to one node, and shapes are in the list too.
+const ROW: u16 = 1 << 15;
+/// A block has batches of one shape if they hold this many bonds on average: fewer lanes take more
+/// time than so many bonds one by one.
+const WORTHWHILE: usize = 6;
+
+/// A bond of a node.
+struct Entry {
+    /// The batch it is in, and its bit there.
+    batch: usize,
+    bit: u32,
+    far: usize,
+    /// Where its shape is.
+    shape: usize,
+}
+
+impl Batch {
+    fn is_row(self) -> bool {
+        self.kind & ROW != 0
+    }
+    /// Entries of the list.
+    #[inline(always)]
+    fn listed(self) -> usize {
+        if self.far == LISTED { self.there.count_ones() as usize } else { 0 }
+    }
+    /// The bonds of a node of the block, of a batch that has some.
+    #[inline(always)]
+    fn of(self, lane: usize) -> u16 {
+        if self.is_row() { self.there } else { self.there & 1 << lane }
+    }
 }
 
 /// Constants per shape of a bond: as the row's node sees it and, with one horizon per node, as its
@@ -66,21 +128,24 @@ pub struct RowTable<K> {
     mate: Option<Vec<K>>,
 }
 
-/// One bit per directed bond, every row starting a byte.
+/// One bit per directed bond: those of a batch in two bytes.
 #[derive(Debug)]
 pub struct CloudBits {
     bytes: Vec<u8>,
-    row: Vec<usize>,
+    /// Per node: 1 if it lost a bond since the marks were cleared.
     marks: Vec<AtomicU8>,
 }
 
 impl CloudBits {
     #[inline(always)]
-    fn intact(&self, node: usize, at: usize) -> bool {
-        self.bytes[self.row[node] + at / 8] >> (at % 8) & 1 == 1
+    fn batch(&self, batch: usize) -> u16 {
+        u16::from_le_bytes([self.bytes[2 * batch], self.bytes[2 * batch + 1]])
     }
-    fn lose(&mut self, node: usize, at: usize) {
-        self.bytes[self.row[node] + at / 8] &= !(1 << (at % 8));
+    fn intact(&self, bond: &Entry) -> bool {
+        self.batch(bond.batch) >> bond.bit & 1 == 1
+    }
+    fn lose(&mut self, node: usize, bond: &Entry) {
+        self.bytes[2 * bond.batch + bond.bit as usize / 8] &= !(1 << (bond.bit % 8));
         *self.marks[node].get_mut() = 1;
     }
 }
@@ -131,9 +196,9 @@ impl<T: Real, const D: usize> Cloud<T, D> {
             points: points.clone(),
             unit,
             horizons,
-            quadrature,
-            start: Vec::new(),
-            neighbour: Vec::new(),
+            blocks: vec![Start::default()],
+            batches: Vec::new(),
+            listed: Vec::new(),
             kind: Vec::new(),
             shapes: Vec::new(),
             samples: Vec::new(),
@@ -142,71 +207,90 @@ impl<T: Real, const D: usize> Cloud<T, D> {
         // Asked for at every bond, computed once per node.
         let volumes: Vec<f64> = (0..n).map(|i| cloud.unit_volume(i)).collect();
         let cells: Vec<SVector<f64, D>> = volumes.iter().map(|&v| cell(v)).collect();
-        let rows = neighbours(&scaled, |i| {
-            cloud.quadrature.reach(&cells[i], cloud.horizon(i)).max(cloud.horizon(i))
-        });
+        let horizons = cloud.horizons.clone();
+        let horizon = |i: usize| horizons[if horizons.len() == 1 { 0 } else { i }];
+        let rows = neighbours(&scaled, |i| quadrature.reach(&cells[i], horizon(i)).max(horizon(i)));
         // Coordinates carry the rounding of the whole cloud's extent, not of their own size.
         let extent = scaled.iter().map(SVector::amax).fold(0.0, f64::max);
         let xi = |i: usize, j: usize| (scaled[j] - scaled[i]).map(|x| snapped(x, extent));
-        let beta = |i: usize, j: usize, xi: &SVector<f64, D>| {
-            cloud.quadrature.weight(xi, &cells[j], cloud.horizon(i))
-        };
+        let beta =
+            |i: usize, j: usize, xi: &SVector<f64, D>| quadrature.weight(xi, &cells[j], horizon(i));
         let shape = |i: usize, j: usize| {
             let xi = xi(i, j);
             let own = beta(i, j, &xi);
             // Both ends see a bond alike if their cells and horizons are the same.
-            let alike = volumes[i] == volumes[j] && cloud.horizon(i) == cloud.horizon(j);
+            let alike = volumes[i] == volumes[j] && horizon(i) == horizon(j);
             let mate = if alike { own } else { beta(j, i, &-xi) };
             BondShape {
                 xi: xi.map(T::of),
                 inverse_square: T::of(1.0 / xi.norm_squared()),
                 volumes: [own * volumes[j], mate * volumes[j]].map(T::of),
-                horizons: [cloud.horizon(i), cloud.horizon(j)].map(T::of),
+                horizons: [horizon(i), horizon(j)].map(T::of),
             }
         };
-        let chunks: Vec<Bundle<T, D>> = (0..n.div_ceil(CHUNK))
-            .into_par_iter()
-            .map(|chunk| {
-                let mut bundle = Bundle::default();
-                for i in chunk * CHUNK..n.min((chunk + 1) * CHUNK) {
-                    bundle.add_row(i, rows.row(i), |j| shape(i, j));
+        let many = AtomicBool::new(false);
+        let build = |share: bool| -> Vec<Bundle<T, D>> {
+            let bundle = |chunk: usize| {
+                let mut bundle = Bundle::new(n.next_multiple_of(BLOCK));
+                for block in (chunk * CHUNK..n.min((chunk + 1) * CHUNK)).step_by(BLOCK) {
+                    if share && many.load(Relaxed) {
+                        break;
+                    }
+                    let nodes = block..n.min(block + BLOCK);
+                    bundle.add_block(nodes, share, |i| rows.row(i), shape);
+                    if bundle.kinds.full {
+                        many.store(true, Relaxed);
+                    }
                 }
                 bundle
-            })
-            .collect();
-        drop(rows);
-        let mut start = Vec::with_capacity(n + 1);
-        start.push(0);
-        let total = chunks.iter().map(|c| c.neighbour.len()).sum();
-        let (mut neighbour, mut kind) = (Vec::with_capacity(total), Vec::with_capacity(total));
+            };
+            (0..n.div_ceil(CHUNK)).into_par_iter().map(bundle).collect()
+        };
+        let mut chunks = build(true);
         let mut kinds = Kinds::default();
+        let mut global = Vec::new();
         for chunk in &chunks {
-            let mut known = start.last().copied().unwrap_or(0);
-            for count in &chunk.counts {
-                known += *count as usize;
-                start.push(known);
-            }
-            neighbour.extend_from_slice(&chunk.neighbour);
             let samples = chunk.kinds.shapes.iter().zip(&chunk.kinds.samples);
-            let global: Vec<u16> = samples.map(|(s, nodes)| kinds.find(s, *nodes)).collect();
-            kinds.full |= chunk.kinds.full;
-            if !kinds.full {
-                kind.extend(chunk.kind.iter().map(|&k| global[usize::from(k)]));
+            global.push(samples.map(|(s, nodes)| kinds.find(s, *nodes)).collect::<Vec<u16>>());
+        }
+        let share = !kinds.full && !many.load(Relaxed);
+        if !share {
+            // Too many shapes to share.
+            chunks = build(false);
+        }
+        drop(rows);
+        let total = |of: &dyn Fn(&Bundle<T, D>) -> usize| chunks.iter().map(of).sum();
+        let mut blocks = Vec::with_capacity(n.div_ceil(BLOCK) + 1);
+        let mut batches: Vec<Batch> = Vec::with_capacity(total(&|c| c.batches.len()));
+        let mut listed: Vec<u32> = Vec::with_capacity(total(&|c| c.listed.len()));
+        let mut kind = Vec::with_capacity(total(&|c| c.kind.len()));
+        for (chunk, bundle) in chunks.into_iter().enumerate() {
+            let (batch, list) = (batches.len(), listed.len());
+            let starts = bundle.starts.iter();
+            blocks
+                .extend(starts.map(|s| Start { batch: batch + s.batch, listed: list + s.listed }));
+            listed.extend_from_slice(&bundle.listed);
+            if share {
+                let global = |k: u16| global[chunk][usize::from(k)];
+                kind.extend(bundle.kind.iter().map(|&k| global(k)));
+                batches.extend(
+                    bundle.batches.iter().map(|b| {
+                        if b.is_row() { *b } else { Batch { kind: global(b.kind), ..*b } }
+                    }),
+                );
+            } else {
+                batches.extend_from_slice(&bundle.batches);
             }
         }
-        if kinds.full {
-            // Too many shapes to share.
-            let row = |i: usize| neighbour[start[i]..start[i + 1]].par_iter().with_min_len(256);
-            let own = (0..n).into_par_iter().flat_map(|i| row(i).map(move |&j| (i, j as usize)));
-            let shapes = own.map(|(i, j)| shape(i, j)).collect();
-            (cloud.shapes, kind) = (shapes, Vec::new());
-        } else {
+        blocks.push(Start { batch: batches.len(), listed: listed.len() });
+        (cloud.blocks, cloud.batches, cloud.listed, cloud.kind) = (blocks, batches, listed, kind);
+        if share {
             (cloud.shapes, cloud.samples) = (kinds.shapes, kinds.samples);
+        } else {
+            cloud.shapes = cloud.for_every_bond(&|i, bond| shape(i, bond.far));
         }
         cloud.shapes.shrink_to_fit();
         cloud.samples.shrink_to_fit();
-        kind.shrink_to_fit();
-        (cloud.start, cloud.neighbour, cloud.kind) = (start, neighbour, kind);
         Ok(cloud)
     }
 
@@ -222,19 +306,111 @@ impl<T: Real, const D: usize> Cloud<T, D> {
         let volume = self.points.volume(node) / self.unit.powi(D as i32);
         snapped(volume, volume)
     }
-    /// Neighbours of a node, ascending.
-    fn row(&self, node: usize) -> &[u32] {
-        &self.neighbour[self.start[node]..self.start[node + 1]]
-    }
-    /// Where the shape of bond `at` is.
+    /// Where the batches with bonds of each node of a block begin and end.
     #[inline(always)]
-    fn shape(&self, at: usize) -> usize {
-        if self.kind.is_empty() { at } else { usize::from(self.kind[at]) }
+    fn spans(&self, block: usize) -> [[Start; 2]; BLOCK] {
+        let [begin, end] = [self.blocks[block], self.blocks[block + 1]];
+        let mut spans = [[begin, end]; BLOCK];
+        if self.is_rows(block) {
+            spans = [[begin; 2]; BLOCK];
+            let mut at = begin;
+            while at.batch < end.batch {
+                let batch = self.batches[at.batch];
+                let span = &mut spans[usize::from(batch.kind & !ROW)];
+                if span[0].batch == span[1].batch {
+                    span[0] = at;
+                }
+                at = Start { batch: at.batch + 1, listed: at.listed + batch.listed() };
+                span[1] = at;
+            }
+        }
+        spans
     }
-    /// Neighbours and shapes of the bonds of a node, with their places.
-    fn bonds_of(&self, node: usize) -> impl Iterator<Item = (usize, usize, &BondShape<T, D>)> {
-        (self.start[node]..self.start[node + 1])
-            .map(|at| (at, self.neighbour[at] as usize, &self.shapes[self.shape(at)]))
+    /// Whether the batches of a block belong to one node each.
+    #[inline(always)]
+    fn is_rows(&self, block: usize) -> bool {
+        let first = self.blocks[block].batch;
+        first == self.blocks[block + 1].batch || self.batches[first].is_row()
+    }
+    /// The bonds of node `lane` of a block in their order; the intact ones if bits are given.
+    #[inline(always)]
+    fn walk<'a>(
+        &'a self,
+        [begin, end]: [Start; 2],
+        lane: usize,
+        bits: Option<&'a CloudBits>,
+    ) -> Walk<'a, T, D> {
+        let before = Start { batch: begin.batch.wrapping_sub(1), ..begin };
+        let none = Batch { far: 0, kind: 0, there: 0 };
+        Walk { cloud: self, bits, lane, at: before, end: end.batch, batch: none, rest: 0 }
+    }
+    /// The bonds of a node in their order.
+    fn bonds_of(&self, node: usize) -> Walk<'_, T, D> {
+        let lane = node % BLOCK;
+        self.walk(self.spans(node / BLOCK)[lane], lane, None)
+    }
+    /// `value` of every node and each of its bonds, where every bond has its own shape: in the
+    /// order of the shapes.
+    fn for_every_bond<X: Send>(&self, value: &(dyn Fn(usize, Entry) -> X + Sync)) -> Vec<X> {
+        let rows = |nodes: Range<usize>| -> Vec<X> {
+            nodes.flat_map(|i| self.bonds_of(i).map(move |bond| value(i, bond))).collect()
+        };
+        let mut values = Vec::with_capacity(self.listed.len());
+        map_pieces(self.points.len(), CHUNK, &rows).for_each(|piece| values.extend(piece));
+        values
+    }
+    /// The bond from `node` to `far`.
+    fn find(&self, node: usize, far: usize) -> Option<Entry> {
+        self.bonds_of(node).find(|bond| bond.far == far)
+    }
+}
+
+/// The bonds of a node.
+struct Walk<'a, T, const D: usize> {
+    cloud: &'a Cloud<T, D>,
+    bits: Option<&'a CloudBits>,
+    /// The node's place in its block.
+    lane: usize,
+    at: Start,
+    end: usize,
+    batch: Batch,
+    /// Bonds of the batch that are yet to come.
+    rest: u16,
+}
+
+impl<T: Real, const D: usize> Iterator for Walk<'_, T, D> {
+    type Item = Entry;
+    #[inline(always)]
+    fn next(&mut self) -> Option<Entry> {
+        while self.rest == 0 {
+            self.at.listed += self.batch.listed();
+            self.at.batch = self.at.batch.wrapping_add(1);
+            if self.at.batch == self.end {
+                return None;
+            }
+            self.batch = self.cloud.batches[self.at.batch];
+            self.rest = self.batch.of(self.lane);
+            if let Some(bits) = self.bits {
+                self.rest &= bits.batch(self.at.batch);
+            }
+        }
+        let (batch, bit) = (self.batch, self.rest.trailing_zeros());
+        self.rest &= self.rest - 1;
+        let row = batch.is_row();
+        let before = if row { bit } else { (batch.there & !(u16::MAX << bit)).count_ones() };
+        let place = self.at.listed + before as usize;
+        let far = match batch.far {
+            LISTED => self.cloud.listed[place] as usize,
+            far => far as usize + self.lane,
+        };
+        let shape = if !row {
+            usize::from(batch.kind)
+        } else if self.cloud.kind.is_empty() {
+            place
+        } else {
+            usize::from(self.cloud.kind[place])
+        };
+        Some(Entry { batch: self.at.batch, bit, far, shape })
     }
 }
 
@@ -311,38 +487,114 @@ impl<T: Real, const D: usize> Kinds<T, D> {
     }
 }
 
-/// Rows of some consecutive nodes, before they are put together.
+/// Batches of some consecutive blocks, before they are put together.
 struct Bundle<T, const D: usize> {
-    counts: Vec<u32>,
-    neighbour: Vec<u32>,
+    starts: Vec<Start>,
+    batches: Vec<Batch>,
+    listed: Vec<u32>,
     kind: Vec<u16>,
     kinds: Kinds<T, D>,
+    /// Length of the node arrays.
+    sites: usize,
 }
 
-impl<T: Real, const D: usize> Default for Bundle<T, D> {
-    fn default() -> Self {
-        Self {
-            counts: Vec::new(),
-            neighbour: Vec::new(),
-            kind: Vec::new(),
-            kinds: Kinds::default(),
-        }
-    }
+/// A bond of a row, before it has a place.
+type Loose<T, const D: usize> = (SVector<T, D>, u32, u16);
+
+/// By ξ, the last component first: on a lattice the order of the neighbours.
+fn by_xi<T: Real, const D: usize>(a: &Loose<T, D>, b: &Loose<T, D>) -> Ordering {
+    let parts = (0..D).rev().map(|d| a.0[d].partial_cmp(&b.0[d]).unwrap_or(Ordering::Equal));
+    parts.fold(Ordering::Equal, Ordering::then).then(a.2.cmp(&b.2))
 }
 
 impl<T: Real, const D: usize> Bundle<T, D> {
-    fn add_row(&mut self, node: usize, row: &[u32], shape: impl Fn(usize) -> BondShape<T, D>) {
-        let before = self.neighbour.len();
-        for &j in row {
-            let shape = shape(j as usize);
-            if shape.volumes.iter().any(|v| *v > T::zero()) {
-                self.neighbour.push(j);
-                if !self.kinds.full {
-                    self.kind.push(self.kinds.find(&shape, [node as u32, j]));
+    fn new(sites: usize) -> Self {
+        Self {
+            starts: Vec::new(),
+            batches: Vec::new(),
+            listed: Vec::new(),
+            kind: Vec::new(),
+            kinds: Kinds::default(),
+            sites,
+        }
+    }
+    fn add_block<'a>(
+        &mut self,
+        nodes: Range<usize>,
+        share: bool,
+        row: impl Fn(usize) -> &'a [u32],
+        shape: impl Fn(usize, usize) -> BondShape<T, D>,
+    ) {
+        self.starts.push(Start { batch: self.batches.len(), listed: self.listed.len() });
+        let first = nodes.start;
+        let mut rows: [Vec<Loose<T, D>>; BLOCK] = std::array::from_fn(|_| Vec::new());
+        for i in nodes {
+            let loose = &mut rows[i - first];
+            for &j in row(i) {
+                let shape = shape(i, j as usize);
+                if shape.volumes.iter().any(|v| *v > T::zero()) {
+                    let find = share && !self.kinds.full;
+                    let kind = if find { self.kinds.find(&shape, [i as u32, j]) } else { 0 };
+                    loose.push((shape.xi, j, kind));
                 }
             }
+            loose.sort_by(by_xi);
         }
-        self.counts.push((self.neighbour.len() - before) as u32);
+        if !share || !self.add_shared(&rows) {
+            self.add_rows(&rows, share);
+        }
+    }
+    /// Batches of one shape, if they are worth it.
+    fn add_shared(&mut self, rows: &[Vec<Loose<T, D>>; BLOCK]) -> bool {
+        let before = (self.batches.len(), self.listed.len());
+        let most = rows.iter().map(Vec::len).sum::<usize>() / WORTHWHILE;
+        let mut rest: [&[Loose<T, D>]; BLOCK] = std::array::from_fn(|lane| &rows[lane][..]);
+        loop {
+            let heads = rest.iter().filter_map(|row| row.first());
+            let Some(&(_, _, kind)) =
+                heads.reduce(|a, b| if a.2 == b.2 || by_xi(a, b).is_le() { a } else { b })
+            else {
+                return true;
+            };
+            if self.batches.len() - before.0 == most {
+                self.batches.truncate(before.0);
+                self.listed.truncate(before.1);
+                self.kind.truncate(before.1);
+                return false;
+            }
+            let (mut there, mut far) = (0, None);
+            let list = self.listed.len();
+            for (lane, row) in rest.iter_mut().enumerate() {
+                if let Some(((_, j, _), tail)) =
+                    row.split_first().filter(|(head, _)| head.2 == kind)
+                {
+                    *row = tail;
+                    there |= 1 << lane;
+                    self.listed.push(*j);
+                    let start = i64::from(*j) - lane as i64;
+                    far = if far.is_none_or(|far| far == start) { Some(start) } else { Some(-1) };
+                }
+            }
+            // All lanes are read, those that are not there too.
+            let inside = far.filter(|far| (0..=self.sites as i64 - BLOCK as i64).contains(far));
+            if inside.is_some() {
+                self.listed.truncate(list);
+            }
+            self.kind.resize(self.listed.len(), kind);
+            self.batches.push(Batch { far: inside.map_or(LISTED, |far| far as u32), kind, there });
+        }
+    }
+    fn add_rows(&mut self, rows: &[Vec<Loose<T, D>>; BLOCK], share: bool) {
+        for (lane, row) in rows.iter().enumerate() {
+            for piece in row.chunks(BLOCK) {
+                self.listed.extend(piece.iter().map(|bond| bond.1));
+                if share {
+                    self.kind.extend(piece.iter().map(|bond| bond.2));
+                }
+                let there = u16::MAX >> (BLOCK - piece.len());
+                self.batches.push(Batch { far: LISTED, kind: ROW | lane as u16, there });
+            }
+        }
     }
 }
 
@@ -382,25 +634,96 @@ where
     J: Inputs<T, Value = Kn::Own>,
 {
     let fused = cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma");
+    // As for lattices.
+    if T::WIDE || Kn::Sum::LEN > 4 {
+        sweep_blocks::<T, D, Kn, I, J, BLOCK>(job, nodes, &mut out, fused)
+    } else {
+        sweep_blocks::<T, D, Kn, I, J, LANES>(job, nodes, &mut out, fused)
+    }
+}
+
+/// The blocks of a chunk, N nodes at once; returns the largest t.
+#[inline(always)]
+fn sweep_blocks<T, const D: usize, Kn, I, J, const N: usize>(
+    job: &Job<'_, T, D, Kn, I, J>,
+    sites: Range<usize>,
+    out: &mut <Kn::Out as Record<T>>::PlanesMut<'_>,
+    fused: bool,
+) -> T
+where
+    T: Real,
+    Kn: BondKernel<T, D>,
+    I: Inputs<T, Value = Kn::Node>,
+    J: Inputs<T, Value = Kn::Own>,
+{
     let limit = T::of(Bond::<T, D>::SMALL);
-    let first = nodes.start;
+    let first = sites.start;
     let mut largest = T::zero();
-    for node in nodes {
-        if job.marked && job.bits.is_some_and(|b| b.marks[node].load(Relaxed) == 0) {
+    for start in sites.step_by(BLOCK) {
+        let block = start / BLOCK;
+        // The nodes to sum for, then those to sum for bond by bond.
+        let mut rest = job.visited(block);
+        if rest == 0 {
             continue;
         }
-        // Taken for small bonds first, like the blocks of a lattice.
-        let small = Arithmetic { small: Kn::STRETCH, fused };
-        let (mut sum, low, mut high) = job.fold(node, small);
-        if Kn::STRETCH && !(low >= -limit && high <= limit) {
-            (sum, _, high) = job.fold(node, Arithmetic { small: false, fused });
+        let rows = job.cloud.is_rows(block);
+        if !rows {
+            for part in (0..BLOCK).step_by(N) {
+                let (done, high) = job.sweep_lanes::<N>(block, part, first, out, fused);
+                rest &= !done;
+                largest = if high > largest { high } else { largest };
+            }
         }
-        largest = if high > largest { high } else { largest };
-        let previous = <Kn::Out as Record<T>>::read(&out, node - first);
-        let (own, constants) = (job.input.load(node), job.own.load(node));
-        job.kernel.close(&sum, &own, &constants, previous).write(&mut out, node - first);
+        if rest == 0 {
+            continue;
+        }
+        let spans = job.cloud.spans(block);
+        for lane in (0..BLOCK).filter(|lane| rest >> lane & 1 == 1) {
+            let node = start + lane;
+            // Taken for small bonds first, like the blocks of a lattice.
+            let mut arithmetic = Arithmetic { small: Kn::STRETCH && rows, fused };
+            let (sum, high) = loop {
+                let (sum, low, high) = job.fold(node, spans[lane], arithmetic);
+                if !arithmetic.small || (low >= -limit && high <= limit) {
+                    break (sum, high);
+                }
+                arithmetic.small = false;
+            };
+            largest = if high > largest { high } else { largest };
+            let previous = <Kn::Out as Record<T>>::read(out, node - first);
+            let (own, constants) = (job.input.load(node), job.own.load(node));
+            job.kernel.close(&sum, &own, &constants, previous).write(out, node - first);
+        }
     }
     largest
+}
+
+/// The records of some nodes.
+#[inline(always)]
+fn gather<T: Real, I: Inputs<T>, const N: usize>(
+    input: &I,
+    nodes: &[u32; N],
+) -> <I::Value as Record<T>>::Lanes<N> {
+    let mut lanes = <I::Value as Record<T>>::lanes::<N>();
+    for l in 0..N {
+        // A block of one node: no bounds to check for each of its planes.
+        I::lane::<1>(&input.block::<1>(nodes[l] as usize), 0).put::<N>(&mut lanes, l);
+    }
+    lanes
+}
+
+/// The records of consecutive nodes.
+#[inline(always)]
+fn consecutive<T: Real, I: Inputs<T>, const N: usize>(
+    input: &I,
+    start: usize,
+) -> <I::Value as Record<T>>::Lanes<N> {
+    let mut lanes = <I::Value as Record<T>>::lanes::<N>();
+    let block = input.block::<N>(start);
+    for l in 0..N {
+        I::lane::<N>(&block, l).put::<N>(&mut lanes, l);
+    }
+    lanes
 }
 
 impl<T, const D: usize, Kn, I, J> Job<'_, T, D, Kn, I, J>
@@ -410,26 +733,133 @@ where
     I: Inputs<T, Value = Kn::Node>,
     J: Inputs<T, Value = Kn::Own>,
 {
-    /// The sum of a node's bonds, with the range of t.
+    /// The nodes of a block that are to be visited.
     #[inline(always)]
-    fn fold(&self, node: usize, arithmetic: Arithmetic) -> (Kn::Sum, T, T) {
+    fn visited(&self, block: usize) -> u32 {
+        let nodes = block * BLOCK..self.cloud.points.len().min((block + 1) * BLOCK);
+        match self.bits {
+            Some(bits) if self.marked => nodes
+                .rev()
+                .fold(0, |mask, node| mask << 1 | u32::from(bits.marks[node].load(Relaxed) != 0)),
+            _ => u32::MAX >> (u32::BITS as usize - nodes.len()),
+        }
+    }
+    /// The nodes `part .. part + N` of a block, taking all bonds for small: writes the results of
+    /// those for which that is so. Returns which these are, and their largest t.
+    #[inline(always)]
+    fn sweep_lanes<const N: usize>(
+        &self,
+        block: usize,
+        part: usize,
+        first: usize,
+        out: &mut <Kn::Out as Record<T>>::PlanesMut<'_>,
+        fused: bool,
+    ) -> (u32, T) {
+        let start = block * BLOCK + part;
+        let limit = T::of(Bond::<T, D>::SMALL);
+        let near: Planes<'_, T, N> = self.u.block(start);
+        let own_block = self.input.block::<N>(start);
+        let mut sums = <Kn::Sum as Record<T>>::lanes::<N>();
+        let (mut low, mut high) = ([T::zero(); N], [T::zero(); N]);
+        self.fold_lanes(
+            &mut sums,
+            (&mut low, &mut high),
+            (block, part),
+            (&near, &own_block),
+            Arithmetic { small: Kn::STRETCH, fused },
+        );
+        let mut done = 0;
+        let mut largest = T::zero();
+        for l in 0..N {
+            let small = !Kn::STRETCH || (high[l] <= limit) & (low[l] >= -limit);
+            let there = start + l < self.cloud.points.len();
+            done |= u32::from(small & there) << l;
+            largest = if small && high[l] > largest { high[l] } else { largest };
+        }
+        // A copy, so that the sums themselves are only read as whole vectors and stay in registers.
+        let mut finished = <Kn::Sum as Record<T>>::lanes::<N>();
+        for l in 0..N {
+            <Kn::Sum as Record<T>>::get::<N>(&sums, l).put::<N>(&mut finished, l);
+        }
+        let owns = self.own.block::<N>(start);
+        let before = <Kn::Out as Record<T>>::read_lanes::<N>(out, start - first);
+        let mut closed = <Kn::Out as Record<T>>::lanes::<N>();
+        for l in 0..N {
+            let previous = <Kn::Out as Record<T>>::get::<N>(&before, l);
+            let sum = <Kn::Sum as Record<T>>::get::<N>(&finished, l);
+            let (node, own) = (I::lane::<N>(&own_block, l), J::lane::<N>(&owns, l));
+            self.kernel.close(&sum, &node, &own, previous).put::<N>(&mut closed, l);
+        }
+        <Kn::Out as Record<T>>::write_lanes::<N>(&closed, out, start - first, done);
+        (done << part, largest)
+    }
+    /// Adds the bonds of the nodes `part .. part + N` of a block to zero sums.
+    #[inline(always)]
+    fn fold_lanes<const N: usize>(
+        &self,
+        sums: &mut <Kn::Sum as Record<T>>::Lanes<N>,
+        (low, high): (&mut [T; N], &mut [T; N]),
+        (block, part): (usize, usize),
+        (near, own): (&Planes<'_, T, N>, &I::Block<N>),
+        arithmetic: Arithmetic,
+    ) {
+        let [begin, end] = [self.cloud.blocks[block], self.cloud.blocks[block + 1]];
+        let lanes = u32::MAX >> (u32::BITS as usize - N);
+        let mut list = begin.listed;
+        for at in begin.batch..end.batch {
+            let batch = self.cloud.batches[at];
+            let there = self.bits.map_or(batch.there, |bits| bits.batch(at));
+            let there = u32::from(there) >> part & lanes;
+            let (u, other) = if batch.far == LISTED {
+                let mut nodes = [0; N];
+                let before = u32::from(batch.there) & !(u32::MAX << part);
+                let mut place = list + before.count_ones() as usize;
+                for l in 0..N {
+                    let on = batch.there >> (part + l) & 1 == 1;
+                    nodes[l] = if on { self.cloud.listed[place] } else { 0 };
+                    place += usize::from(on);
+                }
+                (gather(&self.u, &nodes), gather(&self.input, &nodes))
+            } else {
+                let far = batch.far as usize + part;
+                (consecutive(&self.u, far), consecutive(&self.input, far))
+            };
+            list += batch.listed();
+            let place = usize::from(batch.kind);
+            let shape = &self.cloud.shapes[place];
+            let pair = Pair { constants: self.table.ends(place), volumes: shape.volumes };
+            for l in 0..N {
+                let on = there >> l & 1 == 1;
+                let far = <SVector<T, D> as Record<T>>::get::<N>(&u, l);
+                let eta = SVector::from_fn(|d, _| far[d] - near.plane(d)[l]);
+                let bond = Bond::of_kernel(shape.xi, eta, shape.inverse_square, arithmetic);
+                let nodes = [I::lane::<N>(own, l), <I::Value as Record<T>>::get::<N>(&other, l)];
+                let old = <Kn::Sum as Record<T>>::get::<N>(sums, l);
+                let mut sum = old;
+                self.kernel.add(&mut sum, &bond, pair, [&nodes[0], &nodes[1]]);
+                <Kn::Sum as Record<T>>::select(on, sum, old).put::<N>(sums, l);
+                if Kn::TRACK {
+                    let t = bond.square_strain();
+                    high[l] = if on & (t > high[l]) { t } else { high[l] };
+                    low[l] = if on & (t < low[l]) { t } else { low[l] };
+                }
+            }
+        }
+    }
+    /// The sum of a node's bonds, one by one, with the range of t.
+    #[inline(always)]
+    fn fold(&self, node: usize, span: [Start; 2], arithmetic: Arithmetic) -> (Kn::Sum, T, T) {
         let own = self.input.load(node);
         let u = self.u.get(node);
         let mut sum = <Kn::Sum as Record<T>>::zero();
         let (mut low, mut high) = (T::zero(), T::zero());
-        let begin = self.cloud.start[node];
-        for (at, &j) in self.cloud.row(node).iter().enumerate() {
-            if self.bits.is_some_and(|bits| !bits.intact(node, at)) {
-                continue;
-            }
-            let place = self.cloud.shape(begin + at);
-            let shape = &self.cloud.shapes[place];
-            // A block of one node: no bounds to check for each of its planes.
-            let far = self.u.block::<1>(j as usize);
+        for at in self.cloud.walk(span, node % BLOCK, self.bits) {
+            let shape = &self.cloud.shapes[at.shape];
+            let far = self.u.block::<1>(at.far);
             let eta = SVector::from_fn(|d, _| far.plane(d)[0]) - u;
-            let other = I::lane::<1>(&self.input.block::<1>(j as usize), 0);
+            let other = I::lane::<1>(&self.input.block::<1>(at.far), 0);
             let bond = Bond::of_kernel(shape.xi, eta, shape.inverse_square, arithmetic);
-            let pair = Pair { constants: self.table.ends(place), volumes: shape.volumes };
+            let pair = Pair { constants: self.table.ends(at.shape), volumes: shape.volumes };
             self.kernel.add(&mut sum, &bond, pair, [&own, &other]);
             if Kn::TRACK {
                 let t = bond.square_strain();
@@ -457,7 +887,7 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         self.points.len()
     }
     fn sites(&self) -> usize {
-        self.points.len()
+        self.points.len().next_multiple_of(BLOCK)
     }
     fn site(&self, node: usize) -> usize {
         node
@@ -475,12 +905,13 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         self.unit
     }
     fn bonds(&self) -> usize {
-        self.neighbour.len() / 2
+        self.batches.iter().map(|batch| batch.there.count_ones() as usize).sum::<usize>() / 2
     }
     fn bytes(&self) -> usize {
         self.points.bytes()
-            + self.start.capacity() * size_of::<usize>()
-            + self.neighbour.capacity() * size_of::<u32>()
+            + self.blocks.capacity() * size_of::<Start>()
+            + self.batches.capacity() * size_of::<Batch>()
+            + self.listed.capacity() * size_of::<u32>()
             + self.kind.capacity() * size_of::<u16>()
             + self.shapes.capacity() * size_of::<BondShape<T, D>>()
             + self.samples.capacity() * size_of::<[u32; 2]>()
@@ -498,10 +929,8 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
             constant(&shape.xi64(), self.scale(nodes[seen]))
         };
         let table = |end: usize| -> Vec<K> {
-            if self.kind.is_empty() {
-                let bonds = |i| self.bonds_of(i).map(move |(_, j, shape)| of(shape, [i, j], end));
-                let rows = |nodes: Range<usize>| nodes.flat_map(bonds).collect::<Vec<K>>();
-                map_pieces(self.nodes(), CHUNK, &rows).flatten().collect()
+            if self.samples.is_empty() {
+                self.for_every_bond(&|i, bond| of(&self.shapes[bond.shape], [i, bond.far], end))
             } else {
                 let shapes = self.shapes.iter().zip(&self.samples);
                 shapes.map(|(shape, nodes)| of(shape, nodes.map(|n| n as usize), end)).collect()
@@ -514,27 +943,20 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     }
 
     fn intact(&self, _breakable: &(dyn Fn(usize) -> bool + Sync)) -> CloudBits {
-        let mut row = Vec::with_capacity(self.nodes() + 1);
-        let mut total = 0;
-        for node in 0..self.nodes() {
-            row.push(total);
-            total += self.row(node).len().div_ceil(8);
-        }
-        row.push(total);
+        let bytes = self.batches.iter().flat_map(|batch| batch.there.to_le_bytes()).collect();
         let marks = (0..self.nodes()).map(|_| AtomicU8::new(0)).collect();
-        CloudBits { bytes: vec![0xff; total], row, marks }
+        CloudBits { bytes, marks }
     }
     fn bits_bytes(bits: &CloudBits) -> usize {
-        bits.bytes.capacity() + bits.row.capacity() * size_of::<usize>() + bits.marks.capacity()
+        bits.bytes.capacity() + bits.marks.capacity()
     }
     fn cut(&self, bits: &mut CloudBits, cuts: &(dyn Fn(usize, usize) -> bool + Sync)) -> usize {
         let mut count = 0;
         for node in 0..self.nodes() {
-            for (at, &other) in self.row(node).iter().enumerate() {
-                let other = other as usize;
-                if bits.intact(node, at) && cuts(node.min(other), node.max(other)) {
-                    bits.lose(node, at);
-                    count += usize::from(node < other);
+            for bond in self.bonds_of(node) {
+                if bits.intact(&bond) && cuts(node.min(bond.far), node.max(bond.far)) {
+                    bits.lose(node, &bond);
+                    count += usize::from(node < bond.far);
                 }
             }
         }
@@ -542,13 +964,11 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     }
     fn isolate(&self, bits: &mut CloudBits, node: usize) -> usize {
         let mut count = 0;
-        for (at, &other) in self.row(node).iter().enumerate() {
-            let other = other as usize;
-            let back = self.row(other).binary_search(&(node as u32));
-            if bits.intact(node, at) {
+        for bond in self.bonds_of(node) {
+            if bits.intact(&bond) {
                 count += 1;
-                bits.lose(node, at);
-                back.iter().for_each(|&back| bits.lose(other, back));
+                bits.lose(node, &bond);
+                self.find(bond.far, node).iter().for_each(|back| bits.lose(bond.far, back));
             }
         }
         count
@@ -562,9 +982,8 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         }
     }
     fn copy_bits(bits: &CloudBits) -> CloudBits {
-        let CloudBits { bytes, row, marks } = bits;
-        let marks = marks.iter().map(|x| AtomicU8::new(x.load(Relaxed))).collect();
-        CloudBits { bytes: bytes.clone(), row: row.clone(), marks }
+        let marks = bits.marks.iter().map(|x| AtomicU8::new(x.load(Relaxed))).collect();
+        CloudBits { bytes: bits.bytes.clone(), marks }
     }
     fn copy_marks(bits: &mut CloudBits, other: &CloudBits) {
         for (mark, from) in bits.marks.iter_mut().zip(&other.marks) {
@@ -576,15 +995,17 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     }
     fn bits_from_bytes(&self, bytes: &[u8]) -> Option<CloudBits> {
         let mut bits = self.intact(&|_| true);
-        if bits.bytes.len() != bytes.len() {
+        let fits = bits.bytes.len() == bytes.len()
+            && bits.bytes.iter().zip(bytes).all(|(all, kept)| kept & !all == 0);
+        if !fits {
             return None;
         }
         bits.bytes.copy_from_slice(bytes);
         // A bond is broken for both of its ends.
         let agree = (0..self.nodes()).into_par_iter().all(|node| {
-            self.row(node).iter().enumerate().all(|(at, &other)| {
-                let back = self.row(other as usize).binary_search(&(node as u32));
-                back.is_ok_and(|back| bits.intact(other as usize, back) == bits.intact(node, at))
+            self.bonds_of(node).all(|bond| {
+                let back = || self.find(bond.far, node);
+                bits.intact(&bond) || back().is_some_and(|back| !bits.intact(&back))
             })
         });
         agree.then_some(bits)
@@ -595,12 +1016,13 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         bits: Option<&CloudBits>,
         visit: &mut dyn FnMut(Neighbour<D>),
     ) {
-        for (at, other, shape) in self.bonds_of(node) {
+        for bond in self.bonds_of(node) {
+            let shape = &self.shapes[bond.shape];
             visit(Neighbour {
-                node: other,
+                node: bond.far,
                 xi: shape.xi64(),
                 volume: shape.volumes[0].to_f64(),
-                intact: bits.is_none_or(|bits| bits.intact(node, at - self.start[node])),
+                intact: bits.is_none_or(|bits| bits.intact(&bond)),
             });
         }
     }
@@ -612,11 +1034,12 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         into: &mut Vec<Member<K, D>>,
     ) {
         into.clear();
-        for (at, _, shape) in self.bonds_of(node) {
-            let intact = bits.is_none_or(|bits| bits.intact(node, at - self.start[node]));
+        for bond in self.bonds_of(node) {
+            let shape = &self.shapes[bond.shape];
+            let intact = bits.is_none_or(|bits| bits.intact(&bond));
             if intact && shape.volumes[0] > T::zero() {
                 let volume = shape.volumes[0].to_f64();
-                into.push(Member { xi: shape.xi64(), volume, bond: table.own[self.shape(at)] });
+                into.push(Member { xi: shape.xi64(), volume, bond: table.own[bond.shape] });
             }
         }
     }
@@ -638,8 +1061,9 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     {
         let marked = visit == Visit::Marked;
         let job = Job { cloud: self, kernel, table, bits, marked, u, input, own };
-        sweep_pieces::<T, Kn::Out>(0..self.nodes(), (CHUNK, 1), out.planes_mut(), &|nodes, out| {
-            sweep_chunk(&job, nodes, out)
+        let pieces = (CHUNK, BLOCK);
+        sweep_pieces::<T, Kn::Out>(0..self.sites(), pieces, out.planes_mut(), &|sites, out| {
+            sweep_chunk(&job, sites, out)
         })
     }
 
@@ -658,40 +1082,44 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         // Both rows of a bond evaluate it from its lower to its higher node: the same numbers,
         // so the same verdict, and every task writes its own rows only.
         let arithmetic = Arithmetic { small: false, fused: fuses() };
-        let one_node = |node: usize, bytes: &mut [u8], mark: &mut AtomicU8| {
+        let one_block = |block: usize, bytes: &mut [u8], marks: &mut [AtomicU8]| {
             let mut tally = Tally::default();
-            let own = (input.load(node), u.get(node));
-            let begin = self.start[node];
-            for (at, j, shape) in self.bonds_of(node) {
-                let (at, place) = (at - begin, self.shape(at));
-                let byte = &mut bytes[at / 8];
-                if *byte >> (at % 8) & 1 == 0 {
-                    continue;
-                }
-                let other = (input.load(j), u.get(j));
-                let constants = table.ends(place);
-                let eta = other.1 - own.1;
-                let bond = Bond::of_kernel(shape.xi, eta, shape.inverse_square, arithmetic);
-                let seen = shape.volumes.map(|v| if v > T::zero() { T::one() } else { T::zero() });
-                let index = if node < j {
-                    let pair = Pair { constants, volumes: seen };
-                    test.index(&bond, pair, [&own.0, &other.0])
-                } else {
-                    let ([a, b], [v, w]) = (constants, seen);
-                    let pair = Pair { constants: [b, a], volumes: [w, v] };
-                    test.index(&bond.reversed(), pair, [&other.0, &own.0])
-                };
-                tally.worst = tally.worst.max(index.to_f64());
-                if index > T::one() {
-                    *byte &= !(1 << (at % 8));
-                    *mark.get_mut() = 1;
-                    tally.broken += usize::from(node < j);
+            let (begin, spans) = (self.blocks[block].batch, self.spans(block));
+            for (lane, mark) in marks.iter_mut().enumerate() {
+                let node = block * BLOCK + lane;
+                let own = (input.load(node), u.get(node));
+                for at in self.walk(spans[lane], lane, None) {
+                    let byte = &mut bytes[2 * (at.batch - begin) + at.bit as usize / 8];
+                    if *byte >> (at.bit % 8) & 1 == 0 {
+                        continue;
+                    }
+                    let (j, shape) = (at.far, &self.shapes[at.shape]);
+                    let other = (input.load(j), u.get(j));
+                    let constants = table.ends(at.shape);
+                    let eta = other.1 - own.1;
+                    let bond = Bond::of_kernel(shape.xi, eta, shape.inverse_square, arithmetic);
+                    let seen =
+                        shape.volumes.map(|v| if v > T::zero() { T::one() } else { T::zero() });
+                    let index = if node < j {
+                        let pair = Pair { constants, volumes: seen };
+                        test.index(&bond, pair, [&own.0, &other.0])
+                    } else {
+                        let ([a, b], [v, w]) = (constants, seen);
+                        let pair = Pair { constants: [b, a], volumes: [w, v] };
+                        test.index(&bond.reversed(), pair, [&other.0, &own.0])
+                    };
+                    tally.worst = tally.worst.max(index.to_f64());
+                    if index > T::one() {
+                        *byte &= !(1 << (at.bit % 8));
+                        *mark.get_mut() = 1;
+                        tally.broken += usize::from(node < j);
+                    }
                 }
             }
             tally
         };
-        let CloudBits { bytes, row, marks } = bits;
-        break_range(&one_node, 0, row, bytes, marks)
+        let CloudBits { bytes, marks } = bits;
+        break_range(&one_block, 0, &self.blocks, bytes, marks)
     }
 }
 
@@ -707,26 +1135,26 @@ fn fuses() -> bool {
     cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma")
 }
 
-/// Halves the rows until they are one chunk; their bytes and marks are split along.
+/// Halves the blocks until they are one chunk; their bytes and marks are split along.
 fn break_range(
-    one_node: &(dyn Fn(usize, &mut [u8], &mut AtomicU8) -> Tally + Sync),
+    one_block: &(dyn Fn(usize, &mut [u8], &mut [AtomicU8]) -> Tally + Sync),
     first: usize,
-    row: &[usize],
+    starts: &[Start],
     bytes: &mut [u8],
     marks: &mut [AtomicU8],
 ) -> Tally {
+    let byte = |block: usize| 2 * (starts[block].batch - starts[0].batch);
     if marks.len() > CHUNK {
-        let mid = marks.len() / 2;
-        let (low, high) = bytes.split_at_mut(row[mid] - row[0]);
-        let (low_marks, high_marks) = marks.split_at_mut(mid);
+        let mid = (starts.len() - 1) / 2;
+        let (low, high) = bytes.split_at_mut(byte(mid));
+        let (low_marks, high_marks) = marks.split_at_mut(mid * BLOCK);
         let (a, b) = rayon::join(
-            || break_range(one_node, first, &row[..=mid], low, low_marks),
-            || break_range(one_node, first + mid, &row[mid..], high, high_marks),
+            || break_range(one_block, first, &starts[..=mid], low, low_marks),
+            || break_range(one_block, first + mid, &starts[mid..], high, high_marks),
         );
         return a.merge(b);
     }
-    marks.iter_mut().enumerate().fold(Tally::default(), |tally, (n, mark)| {
-        let range = row[n] - row[0]..row[n + 1] - row[0];
-        tally.merge(one_node(first + n, &mut bytes[range], mark))
+    marks.chunks_mut(BLOCK).enumerate().fold(Tally::default(), |tally, (block, marks)| {
+        tally.merge(one_block(first + block, &mut bytes[byte(block)..byte(block + 1)], marks))
     })
 }

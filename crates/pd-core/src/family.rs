@@ -25,9 +25,9 @@ pub trait BondKernel<T: Real, const D: usize>: Sync {
     /// Constants per bond.
     type Const: Copy + Send + Sync;
     /// What is read at both nodes of a bond.
-    type Node: Copy;
+    type Node: Record<T>;
     /// What is read once per node, to close its sum.
-    type Own: Copy;
+    type Own: Record<T>;
     /// The running sum of one node.
     type Sum: Record<T>;
     /// The result of one node.
@@ -59,7 +59,7 @@ pub trait BondTest<T: Real, const D: usize>: Sync {
     /// Constants per bond.
     type Const: Copy + Send + Sync;
     /// What is read at both nodes of a bond.
-    type Node: Copy;
+    type Node: Record<T>;
     /// Failure index: value / critical value.
     fn index(
         &self,
@@ -167,7 +167,7 @@ pub trait Family<T: Real, const D: usize>: Send + Sync + Sized {
     fn bits_as_bytes(bits: &Self::Bits) -> Vec<u8>;
     /// The bits that were kept; none if they are not a part of this family's bonds.
     fn bits_from_bytes(&self, bytes: &[u8]) -> Option<Self::Bits>;
-    /// Visits the neighbours of `node` in ascending order, broken ones too.
+    /// Visits the neighbours of `node` in the order of their bonds, broken ones too.
     fn neighbours(
         &self,
         node: usize,
@@ -183,8 +183,8 @@ pub trait Family<T: Real, const D: usize>: Send + Sync + Sized {
         into: &mut Vec<Member<K, D>>,
     );
 
-    /// Runs `kernel` over the families of all nodes. Each node's bonds are added in ascending
-    /// order of the neighbour, whatever the number of threads. Where the kernel asks for it
+    /// Runs `kernel` over the families of all nodes. Each node's bonds are added in the order of ξ,
+    /// the last component first, whatever the number of threads. Where the kernel asks for it
     /// ([`BondKernel::TRACK`]), returns the largest t met at a visited node
     /// ([`Bond::square_strain`]; 0 if all are smaller).
     #[allow(clippy::too_many_arguments)]

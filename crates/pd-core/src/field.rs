@@ -91,7 +91,7 @@ impl<'a, T, const N: usize> Planes<'a, T, N> {
 /// What a kernel reads at a node: a field, a pair of inputs, or nothing.
 pub trait Inputs<T: Real>: Copy + Send + Sync {
     /// The value at one node.
-    type Value: Copy;
+    type Value: Record<T>;
     /// N consecutive nodes.
     type Block<const N: usize>: Copy;
     /// The nodes `start .. start + N`.
