@@ -3,6 +3,7 @@ mod advise;
 mod bad_input;
 #[path = "../common/mod.rs"]
 mod common;
+mod front;
 mod loads;
 mod observers;
 mod relaxation;
