@@ -12,7 +12,8 @@
 //! neither the distance r nor the window of time; taken here: r = 2 mm, r = 5 mm, and a fit from
 //! 1.5 mm (δ if that is more) to 10 mm. A body opens as if its tip were about half a horizon further
 //! on, so that K of one point comes out too large by about δ/4r; the fit
-//! ([`OpeningFit`](peridynamics::models::OpeningFit)) does not know of it.
+//! ([`OpeningFit`](peridynamics::models::OpeningFit)) does not know of it, and tells where the tip acts.
+//! The last reading is one point, r = 2 mm, with the tip δ/2 further on.
 //!
 //! Usual: 200² particles; the time step at 90 % of the stable limit against the paper's 0.01 δ/c_p
 //! at 100². `--full` takes Table 1, 200² to 500² with m = 1 to 5 (some ten minutes). Pictures go to
@@ -33,12 +34,14 @@ const EDGE: f64 = 0.1;
 const CRACK: f64 = 0.05;
 const END: f64 = 100e-6;
 /// Where K is read: at two distances behind the tip, in metres, and by a fit.
-const READ: [&str; 3] = ["r = 2 mm", "r = 5 mm", "fit"];
+const READ: [&str; READINGS] = ["r = 2 mm", "r = 5 mm", "fit", "r = 2 mm, tip δ/2 further on"];
+const READINGS: usize = 4;
 
 /// The readings for a horizon in metres.
-fn readings(horizon: f64) -> Outcome<[OpeningFit; 3]> {
+fn readings(horizon: f64) -> Outcome<[OpeningFit; READINGS]> {
     let fit = OpeningFit::between(horizon.max(0.03 * CRACK), 0.2 * CRACK, 18)?;
-    Ok([OpeningFit::at(2e-3)?, OpeningFit::at(5e-3)?, fit])
+    let near = OpeningFit::at(2e-3)?;
+    Ok([near.clone(), OpeningFit::at(5e-3)?, fit, near.with_tip(0.5 * horizon)?])
 }
 /// v_y = g y in 1/s.
 const GRADIENT: f64 = 250.0;
@@ -51,12 +54,14 @@ struct Study {
     stroh: Stroh,
     times: Vec<f64>,
     /// Stress intensity of the finite elements, by reading.
-    fem: [Vec<Intensity>; 3],
+    fem: [Vec<Intensity>; READINGS],
 }
 
 /// A history of stress intensity at the times of the finite elements, by reading.
 struct History {
-    k: [Vec<Intensity>; 3],
+    k: [Vec<Intensity>; READINGS],
+    /// Where the tip acts by the fit, in horizons: the median over time.
+    tip: f64,
     steps: usize,
     dt: f64,
     seconds: f64,
@@ -77,7 +82,8 @@ impl Study {
         // The table's own K is such a fit, from 1.5 mm to 10 mm.
         let (one, two) = (&table["KI"], &table["KII"]);
         let fit = (0..times.len()).map(|i| Intensity { i: one[i], ii: two[i] }).collect();
-        let fem = [point("r2mm", 2e-3), point("r5mm", 5e-3), fit];
+        let near = point("r2mm", 2e-3);
+        let fem = [near.clone(), point("r5mm", 5e-3), fit, near];
         Ok(Self { stiffness, stroh, times, fem })
     }
 
@@ -103,7 +109,8 @@ impl Study {
         body.set_velocity(|x| [0.0, GRADIENT * x[1]].into());
 
         let readings = readings(m * dx)?;
-        let mut samples: [Vec<(f64, Intensity)>; 3] = Default::default();
+        let mut samples: [Vec<(f64, Intensity)>; READINGS] = Default::default();
+        let mut tips = Vec::new();
         let mut run = Run::new(&mut body, Loads::new(), rule(m * dx))?;
         run.observe(1, |view: &View<'_, Plate<Z>>| {
             let u = |node| view.body.displacement(node);
@@ -111,13 +118,16 @@ impl Study {
                 let k = reading.intensity(&self.stroh, |r| opening(&grid, u, CRACK - r));
                 own.push((view.time, k));
             }
+            tips.push(readings[2].tip(&self.stroh, |r| opening(&grid, u, CRACK - r)));
             Ok(Flow::Continue)
         });
         run.until(END)?;
         let (steps, dt) = (run.steps(), run.dt());
         drop(run);
         let k = samples.map(|own| at_times(&own, &self.times));
-        Ok(History { k, steps, dt, seconds: start.elapsed().as_secs_f64() })
+        tips.sort_by(f64::total_cmp);
+        let tip = tips[tips.len() / 2] / (m * dx);
+        Ok(History { k, tip, steps, dt, seconds: start.elapsed().as_secs_f64() })
     }
 }
 
@@ -155,7 +165,7 @@ fn over_the_angle(cells: u32) -> Outcome {
         let history = study.run(cells, 2.0, NoControl, near_limit)?;
         let pairs = first.iter().zip(&second);
         let fem: Vec<_> = pairs.map(|(&i, &ii)| Intensity { i: i * 1e6, ii: ii * 1e6 }).collect();
-        let off = [0, 1, 2].map(|r| {
+        let off: [_; READINGS] = std::array::from_fn(|r| {
             let got: Vec<_> = SEEN.iter().map(|&t| history.k[r][t]).collect();
             format!("{:.3}", errors(&got, &fem).0)
         });
@@ -199,7 +209,7 @@ fn main() -> Outcome {
         PAPER.iter().map(|(cells, _)| (*cells, (1..=5).collect())).collect(),
     );
     println!("errors (Eq. 38), K_I and K_II each");
-    println!("particles | m | paper, K_I | {} | steps | time [s]", READ.join(" | "));
+    println!("particles | m | paper, K_I | {} | tip [δ] | steps | time [s]", READ.join(" | "));
     let mut at_200 = None;
     for (cells, horizons) in cases {
         for m in horizons {
@@ -207,11 +217,12 @@ fn main() -> Outcome {
             let printed = printed.map_or("–".to_owned(), |x| format!("{x:.3}"));
             match study.run(cells, m as f64, NoControl, near_limit) {
                 Ok(history) => {
-                    let off = [0, 1, 2].map(|r| errors(&history.k[r], &study.fem[r]));
+                    let off: [_; READINGS] =
+                        std::array::from_fn(|r| errors(&history.k[r], &study.fem[r]));
                     let shown = off.map(|(i, ii)| format!("{i:.3}, {ii:.3}")).join(" | ");
                     println!(
-                        "{cells}² | {m} | {printed} | {shown} | {} | {:.1}",
-                        history.steps, history.seconds
+                        "{cells}² | {m} | {printed} | {shown} | {:.2} | {} | {:.1}",
+                        history.tip, history.steps, history.seconds
                     );
                     if (cells, m) == (200, 3) {
                         at_200 = Some(off);

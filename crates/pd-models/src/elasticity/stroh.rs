@@ -112,12 +112,15 @@ impl Stroh {
 ///
 /// K_app(r) = K + c₁ r + c₂/r,
 ///
-/// whose K knows neither; r₀ need not be known. It holds the same for the openings of finite
-/// elements, where c₂/r takes the error of the mesh at the tip.
+/// whose K knows neither; r₀ need not be known, and [`tip`](Self::tip) tells it. It holds the same for
+/// the openings of finite elements, where c₂/r takes the error of the mesh at the tip. Where there is
+/// room for one point only, [`with_tip`](Self::with_tip) takes an r₀ that is known.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OpeningFit {
-    /// (r, weight): K = Σ weight K_app(r).
-    points: Vec<(f64, f64)>,
+    /// r, and weights: K = Σ weight K_app(r), c₂ = Σ weight K_app(r).
+    points: Vec<(f64, [f64; 2])>,
+    /// r₀ in metres.
+    tip: f64,
 }
 
 impl OpeningFit {
@@ -127,7 +130,7 @@ impl OpeningFit {
     /// [`Error::InvalidValue`] unless positive.
     pub fn at(r: f64) -> Result<Self> {
         let r = Error::positive("distance behind a crack tip r [m]", r)?;
-        Ok(Self { points: vec![(r, 1.0)] })
+        Ok(Self { points: vec![(r, [1.0, 0.0])], tip: 0.0 })
     }
     /// The fit over `count` equidistant points from `low` to `high` in metres. Nearer than a horizon
     /// the opening is no longer that of a shifted tip.
@@ -143,16 +146,41 @@ impl OpeningFit {
         let row = |x: f64| nalgebra::Vector3::new(1.0, x, 1.0 / x);
         let normal: Matrix3<f64> =
             (0..count).map(|k| row(place(k)) * row(place(k)).transpose()).sum();
-        let first = normal.try_inverse().unwrap_or_else(Matrix3::zeros).column(0).into_owned();
-        let points = (0..count).map(|k| (place(k) * high, row(place(k)).dot(&first))).collect();
-        Ok(Self { points })
+        let inverse = normal.try_inverse().unwrap_or_else(Matrix3::zeros);
+        let weights = |k: usize| {
+            let weights = inverse * row(place(k));
+            (place(k) * high, [weights[0], weights[2] * high])
+        };
+        Ok(Self { points: (0..count).map(weights).collect(), tip: 0.0 })
+    }
+    /// The same with the tip taken r₀ in metres further on than the bonds are cut:
+    /// K_app(r) = √(π/8(r + r₀)) L Δu(r). How far depends on the material, its influence function and
+    /// its horizon, not on the load: [`tip`](Self::tip) of a fit tells.
+    ///
+    /// # Errors
+    /// [`Error::InvalidValue`] for an r₀ that is not finite or negative.
+    pub fn with_tip(mut self, tip: f64) -> Result<Self> {
+        let ok = tip.is_finite() && tip >= 0.0;
+        self.tip = Error::check(ok, "place of a crack's tip r₀ [m]", tip, "finite, not negative")?;
+        Ok(self)
+    }
+    fn sum(&self, stroh: &Stroh, opening: impl Fn(f64) -> Vector2<f64>, part: usize) -> Intensity {
+        self.points.iter().fold(Intensity { i: 0.0, ii: 0.0 }, |sum, &(r, weights)| {
+            let k = stroh.intensity(r + self.tip, &opening(r));
+            Intensity { i: sum.i + weights[part] * k.i, ii: sum.ii + weights[part] * k.ii }
+        })
     }
     /// K from the opening Δu(r), as [`Stroh::intensity`] takes it.
     pub fn intensity(&self, stroh: &Stroh, opening: impl Fn(f64) -> Vector2<f64>) -> Intensity {
-        self.points.iter().fold(Intensity { i: 0.0, ii: 0.0 }, |sum, &(r, weight)| {
-            let k = stroh.intensity(r, &opening(r));
-            Intensity { i: sum.i + weight * k.i, ii: sum.ii + weight * k.ii }
-        })
+        self.sum(stroh, opening, 0)
+    }
+    /// How much further on the tip acts than where [`with_tip`](Self::with_tip) takes it, in metres:
+    /// 2 K·c₂/K² by the fit, to first order in it over r. None by one point, nor without opening.
+    pub fn tip(&self, stroh: &Stroh, opening: impl Fn(f64) -> Vector2<f64>) -> f64 {
+        let k = self.sum(stroh, &opening, 0);
+        let c = self.sum(stroh, &opening, 1);
+        let square = k.i * k.i + k.ii * k.ii;
+        if square > 0.0 { 2.0 * (k.i * c.i + k.ii * c.ii) / square } else { 0.0 }
     }
 }
 

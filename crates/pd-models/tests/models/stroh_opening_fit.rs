@@ -28,6 +28,13 @@ fn a_shifted_tip() {
     assert!(off(longer.i, k) < 0.02 && off(longer.ii, 0.3 * k) < 0.02, "{longer:?} {k}");
     let naive = point.intensity(&stroh, opening(shift));
     assert!(off(naive.i, k) > 0.15, "{naive:?} {k}");
+    // The fit tells how much longer, to first order; known, it mends the one point.
+    let found = fit.tip(&stroh, opening(shift));
+    assert!(off(found, shift) < 0.2, "{found} {shift}");
+    assert!(fit.tip(&stroh, opening(0.0)).abs() < 0.01 * shift);
+    assert_eq!(point.tip(&stroh, opening(shift)), 0.0);
+    let mended = point.with_tip(shift).expect("tip").intensity(&stroh, opening(shift));
+    assert!(off(mended.i, k) < 0.02 && off(mended.ii, 0.3 * k) < 0.02, "{mended:?} {k}");
 }
 
 #[test]
@@ -36,4 +43,7 @@ fn refused() {
         assert!(OpeningFit::between(low, high, count).is_err(), "{low} {high} {count}");
     }
     assert!(OpeningFit::at(-1.0).is_err());
+    for tip in [-1e-3, f64::NAN] {
+        assert!(OpeningFit::at(1.0).expect("point").with_tip(tip).is_err(), "{tip}");
+    }
 }
