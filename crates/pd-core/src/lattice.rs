@@ -44,12 +44,21 @@ struct Offset<T, const D: usize> {
     site: isize,
     cell: [isize; D],
     xi: SVector<T, D>,
+    /// 2ξ.
+    twice: SVector<T, D>,
     /// 1/|ξ|².
     inverse_square: T,
     xi64: SVector<f64, D>,
     /// β V in Δx^D.
     volume: T,
     volume64: f64,
+}
+
+impl<T: Real, const D: usize> Offset<T, D> {
+    #[inline(always)]
+    fn bond(&self, eta: SVector<T, D>, arithmetic: Arithmetic) -> Bond<T, D> {
+        Bond::of_table((self.xi, self.twice), eta, self.inverse_square, arithmetic)
+    }
 }
 
 /// A uniform lattice with one offset table (see the module's head).
@@ -129,6 +138,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
                     site: (0..D).map(|d| step[d] * strides[d] as isize).sum(),
                     cell: step,
                     xi: xi64.map(T::of),
+                    twice: (2.0 * xi64).map(T::of),
                     inverse_square: T::of(1.0 / xi64.norm_squared()),
                     xi64,
                     volume: T::of(volume64),
@@ -168,7 +178,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
                 if mask == 0 {
                     return (false, 0);
                 }
-                let there = |o: usize| mask & lattice.present_byte(block, o);
+                let there = |o| mask & lattice.present_beyond::<LANES>(block * LANES, o) as u8;
                 let bonds = (half..2 * half).map(|o| there(o).count_ones() as usize).sum();
                 (mask == 0xff && (0..2 * half).all(|o| there(o) == 0xff), bonds)
             })
@@ -237,17 +247,14 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         }
         cell
     }
-    fn site_beyond(&self, block: usize, offset: usize) -> usize {
-        (block * LANES).wrapping_add_signed(self.offsets[offset].site)
-    }
-    /// Presence of the neighbours of the lanes of `block` along an offset.
+    /// Beyond which of the N sites from `start` on there is a node along an offset.
     #[inline(always)]
-    fn present_byte(&self, block: usize, offset: usize) -> u8 {
-        let start = (block * LANES) as isize + self.offsets[offset].site;
-        if start < 0 || start as usize >= self.sites {
-            return 0;
-        }
-        byte_at(start as usize, |b| self.present[b])
+    fn present_beyond<const N: usize>(&self, start: usize, offset: usize) -> u32 {
+        self.window::<N>(
+            &self.present,
+            (1, 0),
+            start.wrapping_add_signed(self.offsets[offset].site),
+        )
     }
     fn node_at(&self, cell: [isize; D]) -> Option<usize> {
         let cells = self.grid.cells();
@@ -278,27 +285,39 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         }
         intact
     }
+    /// Which of the N nodes from `start` on have an intact bond along an offset.
     #[inline(always)]
-    fn intact_byte(&self, bits: &LatticeBits, block: usize, offset: usize) -> u8 {
+    fn intact_beyond<const N: usize>(
+        &self,
+        bits: &LatticeBits,
+        start: usize,
+        offset: usize,
+    ) -> u32 {
         let half = bits.half;
-        if offset >= half {
-            bits.bytes[block * half + offset - half]
+        let (column, from) = if offset >= half {
+            (offset - half, start)
         } else {
-            let (h, start) = (half - 1 - offset, self.site_beyond(block, offset));
-            // No node lies before the arrays.
-            if start < self.sites { byte_at(start, |b| bits.bytes[b * half + h]) } else { 0 }
-        }
+            (half - 1 - offset, start.wrapping_add_signed(self.offsets[offset].site))
+        };
+        self.window::<N>(&bits.bytes, (half, column), from)
     }
-}
-
-/// Eight bits from bit position `start` on.
-#[inline(always)]
-fn byte_at(start: usize, byte: impl Fn(usize) -> u8) -> u8 {
-    let (b, shift) = (start / LANES, start % LANES);
-    if shift == 0 {
-        byte(b)
-    } else {
-        ((u16::from(byte(b)) | u16::from(byte(b + 1)) << LANES) >> shift) as u8
+    /// The bits of N sites from `from` on, of a table of which `stride` bytes, one in each `column`,
+    /// are of eight sites. No node lies before or behind the arrays.
+    #[inline(always)]
+    fn window<const N: usize>(
+        &self,
+        bytes: &[u8],
+        (stride, column): (usize, usize),
+        from: usize,
+    ) -> u32 {
+        // A window that begins before the arrays ends before the first node: see `LEAD`.
+        if from >= self.sites {
+            return 0;
+        }
+        let first = from / LANES * stride + column;
+        let byte = |part: usize| bytes.get(first + part * stride).map_or(0, |&b| u32::from(b));
+        let word = (0..=N / LANES).fold(0, |word, part| word | byte(part) << (part * LANES));
+        word >> (from % LANES) & ((1 << N) - 1)
     }
 }
 
@@ -377,7 +396,7 @@ where
     for l in 0..N {
         let on = !MASKED || there >> l & 1 == 1;
         let eta = relative(near, &far, l);
-        let bond = Bond::of_kernel(offset.xi, eta, offset.inverse_square, arithmetic);
+        let bond = offset.bond(eta, arithmetic);
         let nodes = [I::lane::<N>(own, l), I::lane::<N>(&other, l)];
         let old = <Kn::Sum as Record<T>>::get::<N>(&so_far.sums, l);
         let mut sum = old;
@@ -432,16 +451,14 @@ impl<T: Real, const D: usize, Kn: BondKernel<T, D>, I, J> Job<'_, T, D, Kn, I, J
     /// Which of the N nodes from `start` on have an intact neighbour along an offset.
     #[inline(always)]
     fn there<const N: usize>(&self, start: usize, offset: usize) -> u32 {
-        let mut there = 0;
-        for part in 0..N / LANES {
-            let block = start / LANES + part;
-            let byte = match self.bits {
-                Some(bits) => self.lattice.intact_byte(bits, block, offset),
-                None => self.lattice.present[block] & self.lattice.present_byte(block, offset),
-            };
-            there |= u32::from(byte) << (part * LANES);
+        let lattice = self.lattice;
+        match self.bits {
+            Some(bits) => lattice.intact_beyond::<N>(bits, start, offset),
+            None => {
+                lattice.window::<N>(&lattice.present, (1, 0), start)
+                    & lattice.present_beyond::<N>(start, offset)
+            }
         }
-        there
     }
     /// Whether all neighbours of the N nodes from `start` on are there and intact.
     #[inline(always)]
@@ -615,7 +632,7 @@ where
             let pair = Pair { constants: [k, k], volumes: [T::one(); 2] };
             *index = std::array::from_fn(|l| {
                 let eta = relative(&near, &far, l);
-                let bond = Bond::of_kernel(offset.xi, eta, offset.inverse_square, arithmetic);
+                let bond = offset.bond(eta, arithmetic);
                 let (own, other) =
                     (I::lane::<LANES>(&own_block, l), I::lane::<LANES>(&other_block, l));
                 job.test.index(&bond, pair, [&own, &other])
@@ -702,7 +719,7 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
             let mask = self.present[block];
             if mask != 0 {
                 for (h, byte) in bytes.iter_mut().enumerate() {
-                    *byte = mask & self.present_byte(block, half + h);
+                    *byte = mask & self.present_beyond::<LANES>(block * LANES, half + h) as u8;
                 }
             }
         });
@@ -815,11 +832,12 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         into.clear();
         let (block, lane) = (self.site(node) / LANES, self.site(node) % LANES);
         for (o, (offset, &bond)) in self.offsets.iter().zip(table).enumerate() {
-            let byte = match bits {
-                Some(bits) => self.intact_byte(bits, block, o),
-                None => self.present_byte(block, o),
+            let start = block * LANES;
+            let there = match bits {
+                Some(bits) => self.intact_beyond::<LANES>(bits, start, o),
+                None => self.present_beyond::<LANES>(start, o),
             };
-            if byte >> lane & 1 == 1 {
+            if there >> lane & 1 == 1 {
                 into.push(Member { xi: offset.xi64, volume: offset.volume64, bond });
             }
         }
