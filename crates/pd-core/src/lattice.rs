@@ -47,12 +47,21 @@ struct Offset<T, const D: usize> {
     site: isize,
     cell: [isize; D],
     xi: SVector<T, D>,
+    /// 2ξ.
+    twice: SVector<T, D>,
     /// 1/|ξ|².
     inverse_square: T,
     xi64: SVector<f64, D>,
     /// β V in Δx^D.
     volume: T,
     volume64: f64,
+}
+
+impl<T: Real, const D: usize> Offset<T, D> {
+    #[inline(always)]
+    fn bond(&self, eta: SVector<T, D>, arithmetic: Arithmetic) -> Bond<T, D> {
+        Bond::of_table((self.xi, self.twice), eta, self.inverse_square, arithmetic)
+    }
 }
 
 /// A uniform lattice with one offset table (see the module's head).
@@ -137,6 +146,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
                     site: (0..D).map(|d| step[d] * strides[d] as isize).sum(),
                     cell: step,
                     xi: xi64.map(T::of),
+                    twice: (2.0 * xi64).map(T::of),
                     inverse_square: T::of(1.0 / xi64.norm_squared()),
                     xi64,
                     volume: T::of(volume64),
@@ -176,7 +186,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
                 if mask == 0 {
                     return (false, 0);
                 }
-                let there = |o: usize| mask & lattice.present_byte(block, o);
+                let there = |o| mask & lattice.present_beyond::<LANES>(block * LANES, o) as u8;
                 let bonds = (half..2 * half).map(|o| there(o).count_ones() as usize).sum();
                 (mask == 0xff && (0..2 * half).all(|o| there(o) == 0xff), bonds)
             })
@@ -245,22 +255,16 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         }
         cell
     }
-    fn site_beyond(&self, block: usize, offset: usize) -> usize {
-        (block * LANES).wrapping_add_signed(self.offsets[offset].site)
-    }
-    /// Presence of the neighbours of the lanes of `block` along an offset.
+    /// Beyond which of the N sites from `start` on there is a node along an offset.
     #[inline(always)]
-    fn present_byte(&self, block: usize, offset: usize) -> u8 {
-        self.beyond(&self.present, block, offset)
+    fn present_beyond<const N: usize>(&self, start: usize, offset: usize) -> u32 {
+        self.beyond::<N>(&self.present, start, offset)
     }
-    /// The bits of `mask`, one per site, at the neighbours of the lanes of `block` along an offset.
+    /// The bits of `mask`, one per site, beyond the N sites from `start` on along an offset.
     #[inline(always)]
-    fn beyond(&self, mask: &[u8], block: usize, offset: usize) -> u8 {
-        let start = (block * LANES) as isize + self.offsets[offset].site;
-        if start < 0 || start as usize >= self.sites {
-            return 0;
-        }
-        byte_at(start as usize, |b| mask[b])
+    fn beyond<const N: usize>(&self, mask: &[u8], start: usize, offset: usize) -> u32 {
+        let from = start.wrapping_add_signed(self.offsets[offset].site);
+        self.window::<N>(|block| mask.get(block).copied().unwrap_or(0), from)
     }
     fn node_at(&self, cell: [isize; D]) -> Option<usize> {
         let cells = self.grid.cells();
@@ -301,34 +305,25 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         }
         bits.rows[block] as usize
     }
-    /// The bonds of a block along the offset `half + h` where all are intact.
-    #[inline(always)]
+    /// The bonds of a block along the offset `half + h` where all are intact. Not inlined: kernels
+    /// read the bits of blocks at cracks, few of which hold none.
+    #[inline(never)]
     fn whole_byte(&self, block: usize, h: usize) -> u8 {
-        self.present[block] & self.present_byte(block, self.half() + h)
+        let beyond = self.present_beyond::<LANES>(block * LANES, self.half() + h);
+        self.present.get(block).map_or(0, |present| present & beyond as u8)
     }
     #[inline(always)]
     fn own_byte(&self, bits: &LatticeBits, block: usize, h: usize) -> u8 {
-        match bits.rows[block] {
-            WHOLE => self.whole_byte(block, h),
-            row => bits.bytes[row as usize * bits.half + h],
-        }
-    }
-    #[inline(always)]
-    fn intact_byte(&self, bits: &LatticeBits, block: usize, offset: usize) -> u8 {
-        let half = bits.half;
-        if offset >= half {
-            self.own_byte(bits, block, offset - half)
-        } else {
-            let (h, start) = (half - 1 - offset, self.site_beyond(block, offset));
-            // No node lies before the arrays.
-            if start < self.sites { byte_at(start, |b| self.own_byte(bits, b, h)) } else { 0 }
+        match bits.rows.get(block) {
+            Some(&row) if row != WHOLE => bits.bytes[row as usize * bits.half + h],
+            _ => self.whole_byte(block, h),
         }
     }
     /// No bits: every bond is intact.
     fn no_bits(&self) -> LatticeBits {
         let blocks = self.sites / LANES;
         LatticeBits {
-            rows: vec![WHOLE; blocks + 1],
+            rows: vec![WHOLE; blocks],
             blocks: Vec::new(),
             bytes: Vec::new(),
             half: self.half(),
@@ -336,16 +331,33 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             marks: (0..blocks).map(|_| AtomicU8::new(0)).collect(),
         }
     }
-}
-
-/// Eight bits from bit position `start` on.
-#[inline(always)]
-fn byte_at(start: usize, byte: impl Fn(usize) -> u8) -> u8 {
-    let (b, shift) = (start / LANES, start % LANES);
-    if shift == 0 {
-        byte(b)
-    } else {
-        ((u16::from(byte(b)) | u16::from(byte(b + 1)) << LANES) >> shift) as u8
+    /// Which of the N nodes from `start` on have an intact bond along an offset.
+    #[inline(always)]
+    fn intact_beyond<const N: usize>(
+        &self,
+        bits: &LatticeBits,
+        start: usize,
+        offset: usize,
+    ) -> u32 {
+        let half = bits.half;
+        let (h, from) = if offset >= half {
+            (offset - half, start)
+        } else {
+            (half - 1 - offset, start.wrapping_add_signed(self.offsets[offset].site))
+        };
+        self.window::<N>(|block| self.own_byte(bits, block, h), from)
+    }
+    /// The bits of N sites from `from` on, where `byte` has those of a block. No node lies before or
+    /// behind the arrays.
+    #[inline(always)]
+    fn window<const N: usize>(&self, byte: impl Fn(usize) -> u8, from: usize) -> u32 {
+        // A window that begins before the arrays ends before the first node: see `LEAD`.
+        if from >= self.sites {
+            return 0;
+        }
+        let part = |part: usize| u32::from(byte(from / LANES + part)) << (part * LANES);
+        let word = (0..=N / LANES).fold(0, |word, p| word | part(p));
+        word >> (from % LANES) & ((1 << N) - 1)
     }
 }
 
@@ -424,7 +436,7 @@ where
     for l in 0..N {
         let on = !MASKED || there >> l & 1 == 1;
         let eta = relative(near, &far, l);
-        let bond = Bond::of_kernel(offset.xi, eta, offset.inverse_square, arithmetic);
+        let bond = offset.bond(eta, arithmetic);
         let nodes = [I::lane::<N>(own, l), I::lane::<N>(&other, l)];
         let old = <Kn::Sum as Record<T>>::get::<N>(&so_far.sums, l);
         let mut sum = old;
@@ -479,16 +491,14 @@ impl<T: Real, const D: usize, Kn: BondKernel<T, D>, I, J> Job<'_, T, D, Kn, I, J
     /// Which of the N nodes from `start` on have an intact neighbour along an offset.
     #[inline(always)]
     fn there<const N: usize>(&self, start: usize, offset: usize) -> u32 {
-        let mut there = 0;
-        for part in 0..N / LANES {
-            let block = start / LANES + part;
-            let byte = match self.bits {
-                Some(bits) => self.lattice.intact_byte(bits, block, offset),
-                None => self.lattice.present[block] & self.lattice.present_byte(block, offset),
-            };
-            there |= u32::from(byte) << (part * LANES);
+        let lattice = self.lattice;
+        match self.bits {
+            Some(bits) => lattice.intact_beyond::<N>(bits, start, offset),
+            None => {
+                lattice.window::<N>(|b| lattice.present.get(b).copied().unwrap_or(0), start)
+                    & lattice.present_beyond::<N>(start, offset)
+            }
         }
-        there
     }
     /// Whether all neighbours of the N nodes from `start` on are there and intact.
     #[inline(always)]
@@ -659,7 +669,7 @@ where
             let pair = Pair { constants: [k, k], volumes: [T::one(); 2] };
             *index = std::array::from_fn(|l| {
                 let eta = relative(&near, &far, l);
-                let bond = Bond::of_kernel(offset.xi, eta, offset.inverse_square, arithmetic);
+                let bond = offset.bond(eta, arithmetic);
                 let (own, other) =
                     (I::lane::<LANES>(&own_block, l), I::lane::<LANES>(&other_block, l));
                 job.test.index(&bond, pair, [&own, &other])
@@ -747,7 +757,9 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         }
         let breaks = |&block: &usize| {
             let own = able[block];
-            own != 0 && (half..2 * half).any(|o| own & self.beyond(&able, block, o) != 0)
+            own != 0
+                && (half..2 * half)
+                    .any(|o| own & self.beyond::<LANES>(&able, block * LANES, o) as u8 != 0)
         };
         let blocks = self.sites / LANES;
         bits.blocks =
@@ -891,11 +903,12 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         into.clear();
         let (block, lane) = (self.site(node) / LANES, self.site(node) % LANES);
         for (o, (offset, &bond)) in self.offsets.iter().zip(table).enumerate() {
-            let byte = match bits {
-                Some(bits) => self.intact_byte(bits, block, o),
-                None => self.present_byte(block, o),
+            let start = block * LANES;
+            let there = match bits {
+                Some(bits) => self.intact_beyond::<LANES>(bits, start, o),
+                None => self.present_beyond::<LANES>(start, o),
             };
-            if byte >> lane & 1 == 1 {
+            if there >> lane & 1 == 1 {
                 into.push(Member { xi: offset.xi64, volume: offset.volume64, bond });
             }
         }

@@ -10,11 +10,11 @@ pub trait Real: nalgebra::RealField + Copy + Default {
     const WIDTH: usize;
     /// True for 16 numbers, false for 8.
     const WIDE: bool = Self::WIDTH == 16;
-    /// Coefficients, from the constant on, of the polynomial p with (1 − (1+t)^(−½)) = t p(t) for
-    /// |t| ≤ [`Bond::SMALL`](crate::Bond::SMALL): it interpolates in the Chebyshev points of that
-    /// range, of the lowest degree whose relative error (4·10⁻¹⁷ in `f64`, 1.3·10⁻⁹ in `f32`) stays
-    /// below half a unit in the last place.
-    const STRETCH: &'static [Self];
+    /// Coefficients, from the constant on, of the polynomials p and q with 1 − (1+t)^(−½) = t p(t)
+    /// and (1+t)^½ − 1 = t q(t) for |t| ≤ [`Bond::SMALL`](crate::Bond::SMALL): they interpolate in
+    /// the Chebyshev points of that range, of the lowest degree whose relative error (4·10⁻¹⁷ and
+    /// 2·10⁻¹⁸ in `f64`, 1.3·10⁻⁹ and 7·10⁻⁹ in `f32`) stays below half a unit in the last place.
+    const STRETCH: [&'static [Self]; 2];
     /// The nearest value of this type.
     fn of(x: f64) -> Self;
     /// The value in double precision (exact).
@@ -26,12 +26,12 @@ pub trait Real: nalgebra::RealField + Copy + Default {
 }
 
 macro_rules! real {
-    ($t:ty, $name:literal, $lanes:literal, $stretch:expr) => {
+    ($t:ty, $name:literal, $lanes:literal, $p:expr, $q:expr) => {
         impl Real for $t {
             const NAME: &'static str = $name;
             const EPSILON: f64 = <$t>::EPSILON as f64;
             const WIDTH: usize = $lanes;
-            const STRETCH: &'static [Self] = &$stretch;
+            const STRETCH: [&'static [Self]; 2] = [&$p, &$q];
             #[inline(always)]
             fn of(x: f64) -> Self {
                 x as $t
@@ -47,7 +47,13 @@ macro_rules! real {
         }
     };
 }
-real!(f32, "f32", 16, [0.5, -0.374_999_94, 0.312_499_94, -0.273_713_1, 0.246_349_68]);
+real!(
+    f32,
+    "f32",
+    16,
+    [0.5, -0.374_999_94, 0.312_499_94, -0.273_713_1, 0.246_349_68],
+    [0.5, -0.125, 0.062_526_71, -0.039_082_54]
+);
 real!(
     f64,
     "f64",
@@ -62,5 +68,16 @@ real!(
         0.209_472_385_099_637_42,
         -0.196_768_286_337_260_9,
         0.185_840_634_378_865_22,
+    ],
+    [
+        0.5,
+        -0.124_999_999_999_999_71,
+        0.062_499_999_999_999_74,
+        -0.039_062_500_004_054_94,
+        0.027_343_750_003_502_126,
+        -0.020_507_797_554_129_306,
+        0.016_113_268_341_746_034,
+        -0.013_112_440_000_025_37,
+        0.010_927_651_958_395_687,
     ]
 );
