@@ -29,6 +29,8 @@ const RADIUS: f64 = 3.372 * MM;
 const GAP: f64 = 0.75 * MM;
 const FIBRES: usize = 8;
 const SPEED: f64 = 0.213;
+/// Fracture energy of weak interfaces over that of the resin.
+const WEAK: f64 = 0.5;
 /// A critical energy that is never met.
 const NEVER: f64 = 1e30;
 
@@ -76,13 +78,16 @@ struct Outcome {
     early: Vec<Place>,
     inside: usize,
     layers: usize,
+    /// Share of the broken bonds that join a fibre and resin.
+    joining: f64,
 }
 
 fn pull<C>(
     label: &str,
     centres: &[Place],
-    dx: f64,
-    rule: impl Fn(&CrackPlane<2>) -> Result<[C; 2]>,
+    (dx, toughness): (f64, f64),
+    rule: impl Fn(f64, &CrackPlane<2>) -> Result<C>,
+    never: C,
 ) -> Result<Outcome>
 where
     C: DamageCriterion<f64, 2, Regions<Ordinary<LinearSolid>, 2>> + Clone,
@@ -105,8 +110,8 @@ where
     let material = Regions::new(materials, region.clone()).map_err(other)?;
     let family = Lattice::<f64, 2>::new(&grid, Horizon::Cells(4.0), Quadrature::None)?;
     let plane = CrackPlane::lattice(&family, [0.0, 1.0])?;
-    let [breaks, never] = rule(&plane)?;
-    let table = [[breaks.clone(), breaks.clone()], [breaks, never]];
+    let (own, interface) = (rule(1.0, &plane)?, rule(toughness, &plane)?);
+    let table = [[own, interface.clone()], [interface, never]];
     let margin = grid.select(layer);
     let criterion = Interfaces::new(table, region.clone())?.sparing(&margin);
     let mut body = Body::new(family, material, Breaking::new(criterion))?;
@@ -116,8 +121,15 @@ where
     let [top, bottom] = [1.0, -1.0].map(|side| grid.select(move |x| side * x[1] > half));
     let loads = Loads::new().velocity(&top, 1, SPEED).velocity(&bottom, 1, -SPEED);
     let mut run = Run::new(&mut body, loads, TimeStep::Safety(0.7))?;
-    let mut seen =
-        Outcome { first: f64::NAN, looks: Vec::new(), early: Vec::new(), inside: 0, layers: 0 };
+    let mut seen = Outcome {
+        first: f64::NAN,
+        looks: Vec::new(),
+        early: Vec::new(),
+        inside: 0,
+        layers: 0,
+        joining: 0.0,
+    };
+    let mut joining = 0;
     // Bonds that broke, in the order in which they were seen broken.
     let mut order: Vec<Place> = Vec::new();
     let mut known = std::collections::HashSet::new();
@@ -138,6 +150,7 @@ where
                             .any(|c| (x - c).norm() < RADIUS && (y - c).norm() < RADIUS);
                         seen.inside += usize::from(within);
                         seen.layers += usize::from(layer(&x) || layer(&y));
+                        joining += usize::from(stiff(&x) != stiff(&y));
                     }
                 });
             }
@@ -157,6 +170,7 @@ where
     draw_damage(&body, (5.0, [0, 1]), |_| true, &title, format!("{FOLDER}/{label}.png"))?;
     let few = (order.len() / 100).max(10).min(order.len());
     seen.early = order[..few].to_vec();
+    seen.joining = joining as f64 / order.len() as f64;
     println!(
         "{label}: first break at {:.4} ms, {} bonds, ends at {:.4} ms",
         seen.first * 1e3,
@@ -204,21 +218,22 @@ fn main() -> Result<()> {
     let command = effort.command("willberg_rve");
     let mut table = Measures::new("Fibres in resin (Willberg §6)", &command);
     let energy = |value: f64| FractureEnergy::new(value);
-    let modes = |plane: &CrackPlane<2>| -> Result<[ModeEnergies; 2]> {
-        let own = ModeEnergies::from_energies(
-            energy(400.0)?,
-            Some(energy(400.0)?),
-            energy(380.0)?,
-            plane,
-        )?;
-        Ok([own, ModeEnergies::new(NEVER, None, NEVER)?])
+    let modes = |share: f64, plane: &CrackPlane<2>| {
+        let normal = energy(400.0 * share)?;
+        ModeEnergies::from_energies(normal, Some(normal), energy(380.0 * share)?, plane)
     };
-    let foster = pull("energy", &centres, dx, |plane| {
-        let own = BondEnergy::<Uniform>::from_energy(energy(400.0)?, plane)?;
-        Ok([own, BondEnergy::<Uniform>::new(NEVER)?])
-    })?;
-    let power = pull("power_law", &centres, dx, |plane| Ok(modes(plane)?.map(PowerLaw::new)))?;
-    let separated = pull("separated", &centres, dx, |plane| Ok(modes(plane)?.map(Separated::new)))?;
+    let never = ModeEnergies::new(NEVER, None, NEVER)?;
+    let bonds = |share: f64, plane: &CrackPlane<2>| {
+        BondEnergy::<Uniform>::from_energy(energy(400.0 * share)?, plane)
+    };
+    let power_law = |share: f64, plane: &CrackPlane<2>| modes(share, plane).map(PowerLaw::new);
+    let apart = |share: f64, plane: &CrackPlane<2>| modes(share, plane).map(Separated::new);
+    let whole = BondEnergy::<Uniform>::new(NEVER)?;
+    let equal = (dx, 1.0);
+    let foster = pull("energy", &centres, equal, bonds, whole)?;
+    let power = pull("power_law", &centres, equal, power_law, PowerLaw::new(never))?;
+    let separated = pull("separated", &centres, equal, apart, Separated::new(never))?;
+    let weak = pull("energy_weak_interfaces", &centres, (dx, WEAK), bonds, whole)?;
     for (label, seen) in [("energy", &foster), ("power law", &power), ("separated", &separated)] {
         judge(label, seen, &centres, dx, &mut table);
     }
@@ -235,5 +250,10 @@ fn main() -> Result<()> {
             println!("{label} and energy at failure: Jaccard index {:.3}", a.jaccard(&b));
         }
     }
+    let name = |what: &str| format!("energy, interfaces of {WEAK} the toughness: {what}");
+    table.hard_most(&name("first damage over that of equal ones"), weak.first / foster.first, 1.0);
+    let more = weak.joining / foster.joining;
+    table.hard_least(&name("share of broken bonds that join fibre and resin, likewise"), more, 1.0);
+    table.told(&name("that share"), weak.joining);
     conclude(&table, effort, FOLDER, &["angle from the load", "first damage", "Jaccard index"])
 }
