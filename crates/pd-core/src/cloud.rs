@@ -92,7 +92,7 @@ const LISTED: u32 = u32::MAX;
 const ROW: u16 = 1 << 15;
 /// A block has batches of one shape if they hold this many bonds on average: fewer lanes take more
 /// time than so many bonds one by one.
-const WORTHWHILE: usize = 6;
+const WORTHWHILE: usize = 8;
 
 /// A bond of a node.
 struct Entry {
@@ -397,18 +397,18 @@ impl<T: Real, const D: usize> Iterator for Walk<'_, T, D> {
         let (batch, bit) = (self.batch, self.rest.trailing_zeros());
         self.rest &= self.rest - 1;
         let row = batch.is_row();
-        let before = if row { bit } else { (batch.there & !(u16::MAX << bit)).count_ones() };
-        let place = self.at.listed + before as usize;
+        let before = || batch.there & !(u16::MAX << bit);
+        let place = || self.at.listed + if row { bit } else { before().count_ones() } as usize;
         let far = match batch.far {
-            LISTED => self.cloud.listed[place] as usize,
+            LISTED => self.cloud.listed[place()] as usize,
             far => far as usize + self.lane,
         };
         let shape = if !row {
             usize::from(batch.kind)
         } else if self.cloud.kind.is_empty() {
-            place
+            place()
         } else {
-            usize::from(self.cloud.kind[place])
+            usize::from(self.cloud.kind[place()])
         };
         Some(Entry { batch: self.at.batch, bit, far, shape })
     }
@@ -503,8 +503,8 @@ type Loose<T, const D: usize> = (SVector<T, D>, u32, u16);
 
 /// By ξ, the last component first: on a lattice the order of the neighbours.
 fn by_xi<T: Real, const D: usize>(a: &Loose<T, D>, b: &Loose<T, D>) -> Ordering {
-    let parts = (0..D).rev().map(|d| a.0[d].partial_cmp(&b.0[d]).unwrap_or(Ordering::Equal));
-    parts.fold(Ordering::Equal, Ordering::then).then(a.2.cmp(&b.2))
+    let apart = (0..D).rev().find(|&d| a.0[d] != b.0[d]);
+    apart.map_or(a.2.cmp(&b.2), |d| a.0[d].partial_cmp(&b.0[d]).unwrap_or(Ordering::Equal))
 }
 
 impl<T: Real, const D: usize> Bundle<T, D> {
