@@ -15,6 +15,7 @@ mod lattice_is_cloud;
 mod material_check;
 mod momentum;
 mod no_overhead;
+mod numbering;
 mod oracle;
 mod overflowing_law;
 mod patch;
