@@ -17,7 +17,7 @@ fn reached<M: Material<f64, 2>>(material: M) -> Vec<usize> {
     let mut fronts = Vec::new();
     while fronts.last().is_none_or(|&front| front < CELLS) {
         run.steps_more(1).expect("step");
-        let moves = |i: &usize| run.body().displacement(*i) != SVector::zeros();
+        let moves = |i: &usize| run.body().displacement(*i) != SVector::<f64, 2>::zeros();
         let farthest = (0..grid.len()).filter(moves).map(|i| grid.position(i)[0]);
         fronts.push(farthest.fold(0.0, f64::max).ceil() as usize);
     }
