@@ -40,21 +40,27 @@ const WIDEST: usize = 2 * LANES;
 /// a block, so all of them are masked, and what stands in for it is never used.
 const LEAD: usize = WIDEST;
 
-/// One entry of the offset table.
+/// One entry of the offset table: what kernels read at every offset of every block.
 #[derive(Debug, Clone, Copy)]
 struct Offset<T, const D: usize> {
     /// Distance in the node arrays.
     site: isize,
-    cell: [isize; D],
     xi: SVector<T, D>,
     /// 2ξ.
     twice: SVector<T, D>,
     /// 1/|ξ|².
     inverse_square: T,
-    xi64: SVector<f64, D>,
     /// β V in Δx^D.
     volume: T,
-    volume64: f64,
+}
+
+/// The same offset for setup and reports.
+#[derive(Debug, Clone, Copy)]
+struct Step<const D: usize> {
+    cell: [isize; D],
+    xi: SVector<f64, D>,
+    /// β V in Δx^D.
+    volume: f64,
 }
 
 impl<T: Real, const D: usize> Offset<T, D> {
@@ -71,6 +77,8 @@ pub struct Lattice<T, const D: usize> {
     scale: Scale,
     /// Ascending, so the second half points to higher nodes.
     offsets: Vec<Offset<T, D>>,
+    /// One for each offset.
+    steps: Vec<Step<D>>,
     node_site: Vec<u32>,
     sites: usize,
     strides: [usize; D],
@@ -126,7 +134,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             "below 2^32; use a coarser lattice",
         )?;
 
-        let mut offsets = Vec::new();
+        let (mut offsets, mut steps) = (Vec::new(), Vec::new());
         let span: [usize; D] = reaches.map(|r| 2 * r + 1);
         for index in 0..span.iter().product() {
             let mut rest = index;
@@ -138,20 +146,18 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             if step.iter().all(|&s| s == 0) {
                 continue;
             }
-            let xi64 = SVector::from_fn(|d, _| step[d] as f64 * cell[d]);
-            let beta = quadrature.weight(&xi64, &cell, delta);
+            let xi = SVector::from_fn(|d, _| step[d] as f64 * cell[d]);
+            let beta = quadrature.weight(&xi, &cell, delta);
             if beta > 0.0 {
-                let volume64 = beta * cell_volume;
+                let volume = beta * cell_volume;
                 offsets.push(Offset {
                     site: (0..D).map(|d| step[d] * strides[d] as isize).sum(),
-                    cell: step,
-                    xi: xi64.map(T::of),
-                    twice: (2.0 * xi64).map(T::of),
-                    inverse_square: T::of(1.0 / xi64.norm_squared()),
-                    xi64,
-                    volume: T::of(volume64),
-                    volume64,
+                    xi: xi.map(T::of),
+                    twice: (2.0 * xi).map(T::of),
+                    inverse_square: T::of(1.0 / xi.norm_squared()),
+                    volume: T::of(volume),
                 });
+                steps.push(Step { cell: step, xi, volume });
             }
         }
         Error::check(
@@ -166,6 +172,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             grid: grid.clone(),
             scale: Scale { horizon: delta, unit },
             offsets,
+            steps,
             node_site: Vec::with_capacity(grid.len()),
             sites,
             strides,
@@ -237,7 +244,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
 
     /// The family of a node in the bulk: ξ in units of Δx and βV in Δx^D.
     pub fn stencil(&self) -> impl Iterator<Item = (SVector<f64, D>, f64)> + '_ {
-        self.offsets.iter().map(|o| (o.xi64, o.volume64))
+        self.steps.iter().map(|step| (step.xi, step.volume))
     }
 
     fn half(&self) -> usize {
@@ -735,6 +742,7 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
             + self.present.capacity()
             + self.interior.capacity()
             + self.offsets.capacity() * size_of::<Offset<T, D>>()
+            + self.steps.capacity() * size_of::<Step<D>>()
             + self.grid.bytes()
     }
 
@@ -742,7 +750,7 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         &self,
         constant: &(dyn Fn(&SVector<f64, D>, Scale) -> K + Sync),
     ) -> Vec<K> {
-        self.offsets.iter().map(|o| constant(&o.xi64, self.scale)).collect()
+        self.steps.iter().map(|step| constant(&step.xi, self.scale)).collect()
     }
     fn per_bond_bytes<K: Copy + Send + Sync>(table: &Vec<K>) -> usize {
         table.capacity() * size_of::<K>()
@@ -789,7 +797,7 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         for node in 0..self.nodes() {
             let cell = self.grid.cell(node);
             for o in half..2 * half {
-                let step = self.offsets[o].cell;
+                let step = self.steps[o].cell;
                 let to = std::array::from_fn(|d| cell[d] as isize + step[d]);
                 if self.node_at(to).is_some_and(|other| cuts(node, other)) {
                     count += usize::from(self.lose(bits, self.site(node), o));
@@ -806,7 +814,7 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
             self.node_at(std::array::from_fn(|d| cell[d] as isize + step[d])).is_some()
         };
         (0..self.offsets.len())
-            .filter(|&o| there(&self.offsets[o].cell) && self.lose(bits, site, o))
+            .filter(|&o| there(&self.steps[o].cell) && self.lose(bits, site, o))
             .count()
     }
     fn marked(&self, bits: &LatticeBits, visit: &mut dyn FnMut(usize)) {
@@ -882,14 +890,14 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         visit: &mut dyn FnMut(Neighbour<D>),
     ) {
         let (cell, site) = (self.grid.cell(node), self.site(node));
-        for (o, offset) in self.offsets.iter().enumerate() {
-            let to = std::array::from_fn(|d| cell[d] as isize + offset.cell[d]);
+        for (o, step) in self.steps.iter().enumerate() {
+            let to = std::array::from_fn(|d| cell[d] as isize + step.cell[d]);
             if let Some(node) = self.node_at(to) {
                 let intact = bits.is_none_or(|bits| {
                     let (block, h, lane) = self.bit_of(site, o);
                     self.own_byte(bits, block, h) >> lane & 1 == 1
                 });
-                visit(Neighbour { node, xi: offset.xi64, volume: offset.volume64, intact });
+                visit(Neighbour { node, xi: step.xi, volume: step.volume, intact });
             }
         }
     }
@@ -902,14 +910,14 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
     ) {
         into.clear();
         let (block, lane) = (self.site(node) / LANES, self.site(node) % LANES);
-        for (o, (offset, &bond)) in self.offsets.iter().zip(table).enumerate() {
+        for (o, (step, &bond)) in self.steps.iter().zip(table).enumerate() {
             let start = block * LANES;
             let there = match bits {
                 Some(bits) => self.intact_beyond::<LANES>(bits, start, o),
                 None => self.present_beyond::<LANES>(start, o),
             };
             if there >> lane & 1 == 1 {
-                into.push(Member { xi: offset.xi64, volume: offset.volume64, bond });
+                into.push(Member { xi: step.xi, volume: step.volume, bond });
             }
         }
     }
