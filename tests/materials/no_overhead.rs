@@ -192,9 +192,10 @@ fn a_capability_costs_its_own_arrays_alone() {
         Polygon::parallelogram(edges.0, edges.1, edges.2).expect("notch")
     };
     let cracked = parts(Body::new(lattice(), lps(), Precracked::by(notch())));
-    // Marks of every eight sites and where their bits are, and as many bits as are needed.
+    // Marks of every eight sites and where their bits are, as many bits as are needed, and those of
+    // places without nodes once.
     let (blocks, half) = (sites / 8, lattice().offsets() / 2);
-    let rows = |parts: &Parts| (parts[2] - 6 * blocks) as f64 / (half + 4) as f64;
+    let rows = |parts: &Parts| (parts[2] - 6 * blocks) as f64 / (half + 4) as f64 - 1.0;
     let held = |rows: HashSet<usize>| rows.len() as f64;
     let whole = Body::new(lattice(), lps(), Precracked::by(notch())).expect("body");
     let owners = |wanted: &dyn Fn(usize, &Neighbour<3>) -> bool| {

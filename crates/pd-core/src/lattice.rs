@@ -33,6 +33,8 @@ const PLANE_IN_PAGE: usize = 26 * 64;
 
 /// The row of a block that holds no bits, as all its bonds are intact.
 const WHOLE: u32 = u32::MAX;
+/// The row of zeros of all blocks without nodes.
+const EMPTY: u32 = 0;
 
 /// Most sites that a kernel takes together.
 const WIDEST: usize = 2 * LANES;
@@ -103,7 +105,7 @@ struct Layout<const D: usize> {
 pub struct LatticeBits {
     /// Per block: its row, or [`WHOLE`].
     rows: Vec<u32>,
-    /// Per row: its block.
+    /// Per row: its block; of [`EMPTY`] the first one, which has no nodes.
     blocks: Vec<u32>,
     /// `bytes[row * half + h]`, offset `half + h`.
     bytes: Vec<u8>,
@@ -328,12 +330,13 @@ impl<T: Real, const D: usize> Lattice<T, D> {
     }
     /// No bits: every bond is intact.
     fn no_bits(&self) -> LatticeBits {
-        let blocks = self.sites / LANES;
+        let (blocks, half) = (self.sites / LANES, self.half());
+        let row = |&present: &u8| if present == 0 { EMPTY } else { WHOLE };
         LatticeBits {
-            rows: vec![WHOLE; blocks],
-            blocks: Vec::new(),
-            bytes: Vec::new(),
-            half: self.half(),
+            rows: self.present[..blocks].iter().map(row).collect(),
+            blocks: vec![0],
+            bytes: vec![0; half],
+            half,
             full: self.interior.iter().map(|&i| AtomicU8::new(i.into())).collect(),
             marks: (0..blocks).map(|_| AtomicU8::new(0)).collect(),
         }
@@ -769,12 +772,11 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
                 && (half..2 * half)
                     .any(|o| own & self.beyond::<LANES>(&able, block * LANES, o) as u8 != 0)
         };
-        let blocks = self.sites / LANES;
-        bits.blocks =
-            (0..blocks).into_par_iter().filter(breaks).map(|block| block as u32).collect();
-        bits.blocks.shrink_to_fit();
-        for (row, &block) in bits.blocks.iter().enumerate() {
-            bits.rows[block as usize] = row as u32;
+        let found: Vec<usize> = (0..self.sites / LANES).into_par_iter().filter(breaks).collect();
+        bits.blocks.reserve_exact(found.len());
+        for block in found {
+            bits.rows[block] = bits.blocks.len() as u32;
+            bits.blocks.push(block as u32);
         }
         bits.bytes = vec![0; bits.blocks.len() * half];
         bits.bytes.par_chunks_mut(half).zip(&bits.blocks).for_each(|(bytes, &block)| {
@@ -854,7 +856,7 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
     /// Every row with its block before it.
     fn bits_as_bytes(bits: &LatticeBits) -> Vec<u8> {
         let rows = bits.blocks.iter().zip(bits.bytes.chunks_exact(bits.half));
-        rows.flat_map(|(block, row)| [&block.to_le_bytes()[..], row].concat()).collect()
+        rows.skip(1).flat_map(|(block, row)| [&block.to_le_bytes()[..], row].concat()).collect()
     }
     fn bits_from_bytes(&self, bytes: &[u8]) -> Option<LatticeBits> {
         let mut bits = self.no_bits();
