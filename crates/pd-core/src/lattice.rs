@@ -264,6 +264,11 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         }
         cell
     }
+    /// On which of the N sites from `start` on there is a node.
+    #[inline(always)]
+    fn present_from<const N: usize>(&self, start: usize) -> u32 {
+        self.window::<N>(|block| self.present.get(block).copied().unwrap_or(0), start)
+    }
     /// Beyond which of the N sites from `start` on there is a node along an offset.
     #[inline(always)]
     fn present_beyond<const N: usize>(&self, start: usize, offset: usize) -> u32 {
@@ -485,8 +490,9 @@ where
                 add_lanes::<T, D, Kn, I, J, N, false>(job, gathered, entry, 0, block, arithmetic);
         }
     } else {
+        let nodes = job.lattice.present_from::<N>(block.0);
         for (o, entry) in offsets.enumerate() {
-            let there = job.there::<N>(block.0, o);
+            let there = nodes & job.there::<N>(block.0, o);
             if there != 0 {
                 gathered = add_lanes::<T, D, Kn, I, J, N, true>(
                     job, gathered, entry, there, block, arithmetic,
@@ -498,16 +504,13 @@ where
 }
 
 impl<T: Real, const D: usize, Kn: BondKernel<T, D>, I, J> Job<'_, T, D, Kn, I, J> {
-    /// Which of the N nodes from `start` on have an intact neighbour along an offset.
+    /// Beyond which of the N sites from `start` on there is a node along an offset, with an intact bond
+    /// if bonds can be missing.
     #[inline(always)]
     fn there<const N: usize>(&self, start: usize, offset: usize) -> u32 {
-        let lattice = self.lattice;
         match self.bits {
-            Some(bits) => lattice.intact_beyond::<N>(bits, start, offset),
-            None => {
-                lattice.window::<N>(|b| lattice.present.get(b).copied().unwrap_or(0), start)
-                    & lattice.present_beyond::<N>(start, offset)
-            }
+            Some(bits) => self.lattice.intact_beyond::<N>(bits, start, offset),
+            None => self.lattice.present_beyond::<N>(start, offset),
         }
     }
     /// Whether all neighbours of the N nodes from `start` on are there and intact.
