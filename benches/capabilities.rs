@@ -238,7 +238,7 @@ fn main() {
          tested, where bonds can break or are cut. Parts of a body ahead of a wave are computed like \
          others: numbers that are not zero run ahead of it by one or two horizons a step, so that what \
          could be left out without a change in any bit is gone after the first steps of a scene \
-         (`cargo test --test runs front -- --nocapture`: 67 and 34 steps across 200 nodes).\n\n| capability | off | on | ns per \
+         (`cargo test --test runs front -- --nocapture`: 68 and 35 steps across 200 nodes).\n\n| capability | off | on | ns per \
          node-step, off | on | ratio | bytes per node, off | on | bytes per bond, off | on |\n| --- | \
          --- | --- | --- | --- | --- | --- | --- | --- | --- |\n{rows}",
         machine()
