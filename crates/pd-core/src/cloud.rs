@@ -4,8 +4,8 @@
 //! (Zhao, dual horizon): f_i = Σ_{H_i} T_i V_j − Σ_{H'_i} T_j V_j. β V is 0 where a neighbour is
 //! in one of the two only.
 //!
-//! Nodes lie in blocks of [`BLOCK`], as they are numbered. A node's bonds are sorted by ξ, so that
-//! bonds of one shape at several nodes of a block come together: such a [`Batch`] is computed at
+//! Nodes lie in blocks of sixteen, as they are numbered. A node's bonds are sorted by ξ, so that
+//! bonds of one shape at several nodes of a block come together: such a batch is computed at
 //! once, a bond to a lane, like an offset of a lattice. Blocks whose nodes share few shapes are
 //! computed bond by bond.
 
