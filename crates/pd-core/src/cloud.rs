@@ -12,6 +12,7 @@
 use crate::bond::{Arithmetic, Bond, Member, Scale};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
 use crate::field::{Field, Inputs, Planes};
+use crate::lanes::{Gathered, close};
 use crate::parallel::{map_pieces, sweep_pieces};
 use crate::points::Points;
 use crate::quadrature::Quadrature;
@@ -634,8 +635,7 @@ where
     J: Inputs<T, Value = Kn::Own>,
 {
     let fused = cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma");
-    // As for lattices.
-    if T::WIDE || Kn::Sum::LEN > 4 {
+    if T::WIDE {
         sweep_blocks::<T, D, Kn, I, J, BLOCK>(job, nodes, &mut out, fused)
     } else {
         sweep_blocks::<T, D, Kn, I, J, LANES>(job, nodes, &mut out, fused)
@@ -759,15 +759,9 @@ where
         let limit = T::of(Bond::<T, D>::SMALL);
         let near: Planes<'_, T, N> = self.u.block(start);
         let own_block = self.input.block::<N>(start);
-        let mut sums = <Kn::Sum as Record<T>>::lanes::<N>();
-        let (mut low, mut high) = ([T::zero(); N], [T::zero(); N]);
-        self.fold_lanes(
-            &mut sums,
-            (&mut low, &mut high),
-            (block, part),
-            (&near, &own_block),
-            Arithmetic { small: Kn::STRETCH, fused },
-        );
+        let arithmetic = Arithmetic { small: Kn::STRETCH, fused };
+        let Gathered { sums, low, high } =
+            self.fold_lanes::<N>((block, part), (&near, &own_block), arithmetic);
         let mut done = 0;
         let mut largest = T::zero();
         for l in 0..N {
@@ -776,33 +770,19 @@ where
             done |= u32::from(small & there) << l;
             largest = if small && high[l] > largest { high[l] } else { largest };
         }
-        // A copy, so that the sums themselves are only read as whole vectors and stay in registers.
-        let mut finished = <Kn::Sum as Record<T>>::lanes::<N>();
-        for l in 0..N {
-            <Kn::Sum as Record<T>>::get::<N>(&sums, l).put::<N>(&mut finished, l);
-        }
-        let owns = self.own.block::<N>(start);
-        let before = <Kn::Out as Record<T>>::read_lanes::<N>(out, start - first);
-        let mut closed = <Kn::Out as Record<T>>::lanes::<N>();
-        for l in 0..N {
-            let previous = <Kn::Out as Record<T>>::get::<N>(&before, l);
-            let sum = <Kn::Sum as Record<T>>::get::<N>(&finished, l);
-            let (node, own) = (I::lane::<N>(&own_block, l), J::lane::<N>(&owns, l));
-            self.kernel.close(&sum, &node, &own, previous).put::<N>(&mut closed, l);
-        }
-        <Kn::Out as Record<T>>::write_lanes::<N>(&closed, out, start - first, done);
+        let blocks = (&own_block, &self.own.block::<N>(start));
+        close::<T, D, Kn, I, J, N>(self.kernel, &sums, blocks, out, (start, first), done);
         (done << part, largest)
     }
     /// Adds the bonds of the nodes `part .. part + N` of a block to zero sums.
     #[inline(always)]
     fn fold_lanes<const N: usize>(
         &self,
-        sums: &mut <Kn::Sum as Record<T>>::Lanes<N>,
-        (low, high): (&mut [T; N], &mut [T; N]),
         (block, part): (usize, usize),
         (near, own): (&Planes<'_, T, N>, &I::Block<N>),
         arithmetic: Arithmetic,
-    ) {
+    ) -> Gathered<T, Kn::Sum, N> {
+        let mut gathered = Gathered::nothing();
         let [begin, end] = [self.cloud.blocks[block], self.cloud.blocks[block + 1]];
         let lanes = u32::MAX >> (u32::BITS as usize - N);
         let mut list = begin.listed;
@@ -828,23 +808,17 @@ where
             let place = usize::from(batch.kind);
             let shape = &self.cloud.shapes[place];
             let pair = Pair { constants: self.table.ends(place), volumes: shape.volumes };
+            let so_far = gathered;
             for l in 0..N {
                 let on = there >> l & 1 == 1;
                 let far = <SVector<T, D> as Record<T>>::get::<N>(&u, l);
                 let eta = SVector::from_fn(|d, _| far[d] - near.plane(d)[l]);
                 let bond = Bond::of_kernel(shape.xi, eta, shape.inverse_square, arithmetic);
                 let nodes = [I::lane::<N>(own, l), <I::Value as Record<T>>::get::<N>(&other, l)];
-                let old = <Kn::Sum as Record<T>>::get::<N>(sums, l);
-                let mut sum = old;
-                self.kernel.add(&mut sum, &bond, pair, [&nodes[0], &nodes[1]]);
-                <Kn::Sum as Record<T>>::select(on, sum, old).put::<N>(sums, l);
-                if Kn::TRACK {
-                    let t = bond.square_strain();
-                    high[l] = if on & (t > high[l]) { t } else { high[l] };
-                    low[l] = if on & (t < low[l]) { t } else { low[l] };
-                }
+                gathered.add(&so_far, (l, on), self.kernel, &bond, pair, [&nodes[0], &nodes[1]]);
             }
         }
+        gathered
     }
     /// The sum of a node's bonds, one by one, with the range of t.
     #[inline(always)]

@@ -12,6 +12,7 @@ use crate::bond::{Arithmetic, Bond, Member, Scale};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
 use crate::field::{Field, Inputs, Planes};
 use crate::grid::Grid;
+use crate::lanes::{Gathered, close};
 use crate::parallel::{break_pieces, sweep_pieces};
 use crate::quadrature::Quadrature;
 use crate::record::{LANES, Record};
@@ -400,33 +401,6 @@ fn relative<T: Real, const D: usize, const N: usize>(
     SVector::from_fn(|d, _| far.plane(d)[lane] - near.plane(d)[lane])
 }
 
-/// What a block of N nodes gathers: the sums of a kernel, the least and the largest t. Passed by
-/// value, for sums behind a reference are not kept in registers while a block goes through its bonds.
-struct Gathered<T, S: Record<T>, const N: usize>
-where
-    T: Real,
-{
-    sums: S::Lanes<N>,
-    low: [T; N],
-    high: [T; N],
-}
-
-impl<T: Real, S: Record<T>, const N: usize> Clone for Gathered<T, S, N> {
-    #[inline(always)]
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<T: Real, S: Record<T>, const N: usize> Copy for Gathered<T, S, N> {}
-
-impl<T: Real, S: Record<T>, const N: usize> Gathered<T, S, N> {
-    #[inline(always)]
-    fn nothing() -> Self {
-        let zeros = [T::zero(); N];
-        Self { sums: S::lanes::<N>(), low: zeros, high: zeros }
-    }
-}
-
 /// Adds the bonds along one offset of a block of nodes, where `there` holds if MASKED.
 #[inline(always)]
 fn add_lanes<'a, T, const D: usize, Kn, I, J, const N: usize, const MASKED: bool>(
@@ -453,17 +427,7 @@ where
         let eta = relative(near, &far, l);
         let bond = offset.bond(eta, arithmetic);
         let nodes = [I::lane::<N>(own, l), I::lane::<N>(&other, l)];
-        let old = <Kn::Sum as Record<T>>::get::<N>(&so_far.sums, l);
-        let mut sum = old;
-        job.kernel.add(&mut sum, &bond, pair, [&nodes[0], &nodes[1]]);
-        <Kn::Sum as Record<T>>::select(on, sum, old).put::<N>(&mut gathered.sums, l);
-        if Kn::TRACK {
-            let (t, low, high) = (bond.square_strain(), so_far.low[l], so_far.high[l]);
-            gathered.high[l] = if on & (t > high) { t } else { high };
-            if Kn::STRETCH {
-                gathered.low[l] = if on & (t < low) { t } else { low };
-            }
-        }
+        gathered.add(&so_far, (l, on), job.kernel, &bond, pair, [&nodes[0], &nodes[1]]);
     }
     gathered
 }
@@ -578,21 +542,15 @@ where
                 largest[l] = if high > largest[l] { high } else { largest[l] };
             }
         }
-        // A copy, so that the sums themselves are only read as whole vectors and stay in registers.
-        let mut finished = <Kn::Sum as Record<T>>::lanes::<N>();
-        for l in 0..N {
-            <Kn::Sum as Record<T>>::get::<N>(&gathered.sums, l).put::<N>(&mut finished, l);
-        }
-        let owns = job.own.block::<N>(start);
-        let before = <Kn::Out as Record<T>>::read_lanes::<N>(&out, start - first);
-        let mut closed = <Kn::Out as Record<T>>::lanes::<N>();
-        for l in 0..N {
-            let previous = <Kn::Out as Record<T>>::get::<N>(&before, l);
-            let sum = <Kn::Sum as Record<T>>::get::<N>(&finished, l);
-            let (node, own) = (I::lane::<N>(&own_block, l), J::lane::<N>(&owns, l));
-            job.kernel.close(&sum, &node, &own, previous).put::<N>(&mut closed, l);
-        }
-        <Kn::Out as Record<T>>::write_lanes::<N>(&closed, &mut out, start - first, mask);
+        let blocks = (&own_block, &job.own.block::<N>(start));
+        close::<T, D, Kn, I, J, N>(
+            job.kernel,
+            &gathered.sums,
+            blocks,
+            &mut out,
+            (start, first),
+            mask,
+        );
     }
     largest.into_iter().fold(T::zero(), |a, b| if b > a { b } else { a })
 }
@@ -858,8 +816,12 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
     }
     /// Every row with its block before it.
     fn bits_as_bytes(bits: &LatticeBits) -> Vec<u8> {
-        let rows = bits.blocks.iter().zip(bits.bytes.chunks_exact(bits.half));
-        rows.skip(1).flat_map(|(block, row)| [&block.to_le_bytes()[..], row].concat()).collect()
+        let mut bytes = Vec::with_capacity(bits.blocks.len() * (size_of::<u32>() + bits.half));
+        for (block, row) in bits.blocks.iter().zip(bits.bytes.chunks_exact(bits.half)).skip(1) {
+            bytes.extend_from_slice(&block.to_le_bytes());
+            bytes.extend_from_slice(row);
+        }
+        bytes
     }
     fn bits_from_bytes(&self, bytes: &[u8]) -> Option<LatticeBits> {
         let mut bits = self.no_bits();

@@ -17,6 +17,7 @@ pub mod gauss;
 pub mod grid;
 pub mod influence;
 pub mod integrator;
+mod lanes;
 pub mod lattice;
 pub mod loads;
 pub mod material;
@@ -34,6 +35,7 @@ pub mod state;
 pub mod statics;
 pub mod symbol;
 pub mod time_step;
+mod tridiagonal;
 
 pub use body::{Body, Dynamics, Memory};
 pub use bond::{Bond, End, Member, Neighbourhood, Scale};

@@ -3,14 +3,12 @@
 use crate::body::Dynamics;
 use crate::grid::NodeSet;
 use crate::search::neighbours;
-use crate::time_step::in_peace;
+use crate::time_step::{apply, in_peace};
 use crate::{Error, Real, Result};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use std::collections::HashSet;
 use std::sync::Arc;
 
-/// Strain of the deformations that tell what bonds carry across a face is ε to this power.
-const PROBE: f64 = 0.4;
 /// The image of a node is at most this far from a node, in units of Δx.
 const APART: f64 = 1e-6;
 
@@ -279,30 +277,38 @@ fn shares<T: Real, const D: usize, B: Dynamics<T, D>>(
     let wanted = t * n.transpose() + n * t.transpose() - n * n.transpose() * t.dot(&n);
 
     let pairs: Vec<(usize, usize)> = (0..D).flat_map(|i| (i..D).map(move |j| (i, j))).collect();
-    let mut forces: Vec<Vec<SVector<f64, D>>> = Vec::new();
+    // K of u = H (x − x₀) for every strain: what holds the body in it.
+    let mut held: Vec<Vec<SVector<f64, D>>> = Vec::new();
     in_peace(body, |body| {
         for &(i, j) in &pairs {
             let mut h = SMatrix::<f64, D, D>::zeros();
             h[(i, j)] += 0.5;
             h[(j, i)] += 0.5;
-            forces.push(forces_of_strain(body, &h, &face.point)?);
+            let u = |node| h * (body.position(node) - face.point);
+            let u: Vec<_> = (0..body.nodes()).map(u).collect();
+            let mut k = vec![SVector::zeros(); u.len()];
+            apply(body, &u, &mut k)?;
+            for (node, k) in k.iter_mut().enumerate() {
+                *k /= body.inverse_mass(body.site(node)).to_f64();
+            }
+            held.push(k);
         }
         Ok(())
     })?;
-    // The mean stress by the virial: ∫σ dV = −Σ f⊗x V for a body that nothing holds.
+    // The mean stress by the virial: ∫σ dV = Σ Ku⊗x V for a body that nothing else holds.
     let stress = DMatrix::from_fn(pairs.len(), pairs.len(), |row, k| {
         let (i, j) = pairs[row];
         let torque = |(node, f): (usize, &SVector<f64, D>)| {
             let x = body.position(node);
-            -0.5 * (f[i] * x[j] + f[j] * x[i]) * body.volume(node)
+            0.5 * (f[i] * x[j] + f[j] * x[i]) * body.volume(node)
         };
-        forces[k].iter().enumerate().map(torque).sum::<f64>()
+        held[k].iter().enumerate().map(torque).sum::<f64>()
     });
     let wanted = DVector::from_fn(pairs.len(), |k, _| wanted[pairs[k]]);
     let mix = stress.lu().solve(&wanted).unwrap_or_else(|| DVector::zeros(pairs.len()));
     let share = |node: usize| {
-        let parts = forces.iter().zip(mix.iter());
-        parts.fold(SVector::zeros(), |sum, (force, part)| sum - force[node] * *part)
+        let parts = held.iter().zip(mix.iter());
+        parts.fold(SVector::zeros(), |sum, (held, part)| sum + held[node] * *part)
     };
     let shares: Vec<_> = near.into_iter().map(|node| (node, share(node))).collect();
     let resultant = shares.iter().map(|(node, b)| b[axis] * body.volume(*node)).sum::<f64>();
@@ -310,29 +316,6 @@ fn shares<T: Real, const D: usize, B: Dynamics<T, D>>(
     let need = "positive: are they beside the face, does the body end there, is it held by bonds?";
     Error::check(resultant.is_finite() && resultant > 0.0, what, resultant, need)?;
     Ok(shares.into_iter().map(|(node, b)| (node, b / resultant)).collect())
-}
-
-/// Force densities per strain in Pa/m of u = H (x − origin), to first order.
-fn forces_of_strain<T: Real, const D: usize>(
-    body: &mut impl Dynamics<T, D>,
-    h: &SMatrix<f64, D, D>,
-    origin: &SVector<f64, D>,
-) -> Result<Vec<SVector<f64, D>>> {
-    let (unit, strain) = (body.unit(), T::EPSILON.powf(PROBE));
-    let mut forces = vec![SVector::zeros(); body.nodes()];
-    for sign in [1.0, -1.0] {
-        for node in 0..body.nodes() {
-            let u = h * (body.position(node) - origin) * (sign * strain / unit);
-            let site = body.site(node);
-            body.u_mut().set(site, u.map(T::of));
-        }
-        body.evaluate()?;
-        for (node, force) in forces.iter_mut().enumerate() {
-            let f = body.force().get(body.site(node)).map(Real::to_f64);
-            *force += f * (0.5 * sign / (strain * unit));
-        }
-    }
-    Ok(forces)
 }
 
 struct Site {

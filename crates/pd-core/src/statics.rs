@@ -21,6 +21,7 @@ use crate::field::{Field, map_sites};
 use crate::loads::{Bound, Loads};
 use crate::parallel::{axpy, axpy_weighted, sum_in_order, zip_pieces};
 use crate::time_step::softest_wave;
+use crate::tridiagonal::Tridiagonal;
 use crate::{Error, Real, Result};
 use nalgebra::{DMatrix, SMatrix, SVector};
 
@@ -196,46 +197,6 @@ impl Statics {
     }
 }
 
-/// The matrix T of the Lanczos iteration that one of conjugate gradients is:
-/// T_jj = 1/α_j + β_(j−1)/α_(j−1), T_j,j+1 = √β_j/α_j. Its eigenvalues approach those of M⁻¹VK from
-/// within. (nalgebra has eigenvalues of dense matrices only.)
-#[derive(Default)]
-struct Tridiagonal {
-    /// T_jj and T²_j,j+1.
-    rows: Vec<[f64; 2]>,
-    carried: f64,
-}
-
-impl Tridiagonal {
-    /// The next α_j and β_j.
-    fn push(&mut self, alpha: f64, beta: f64) {
-        self.rows.push([1.0 / alpha + self.carried, beta / alpha.powi(2)]);
-        self.carried = beta / alpha;
-    }
-    /// True if no eigenvalue is below `shift`: every pivot of T − shift is positive.
-    fn all_above(&self, shift: f64) -> bool {
-        let mut coupling = 0.0;
-        self.rows.iter().all(|[diagonal, next]| {
-            let pivot = diagonal - shift - coupling;
-            coupling = next / pivot;
-            pivot > 0.0
-        })
-    }
-    /// The smallest eigenvalue, by bisection from above; infinite if there is no row.
-    fn smallest(&self) -> f64 {
-        let mut above = self.rows.iter().map(|row| row[0]).fold(f64::INFINITY, f64::min);
-        let mut below = above;
-        while below > 0.0 && !self.all_above(below) {
-            (above, below) = (below, 0.5 * below);
-        }
-        for _ in 0..20 {
-            let middle = 0.5 * (above + below);
-            *(if self.all_above(middle) { &mut below } else { &mut above }) = middle;
-        }
-        below
-    }
-}
-
 /// An operator and the inverse of every node's own block of it.
 type System<'a, T, const D: usize> = (&'a Operator<T>, &'a Field<T, SMatrix<T, D, D>>);
 
@@ -248,7 +209,9 @@ fn conjugate_gradients<T: Real, const D: usize>(
     r: &mut Vectors<T, D>,
     goes_on: &mut dyn FnMut(f64) -> bool,
 ) -> Result<f64> {
-    let mut lanczos = Tridiagonal::default();
+    // That of the Lanczos iteration which this one is: T_jj = 1/α_j + β_(j−1)/α_(j−1) and
+    // T_j,j+1 = √β_j/α_j.
+    let (mut lanczos, mut carried) = (Tridiagonal::default(), 0.0);
     let [mut z, mut q] = std::array::from_fn(|_| Field::zeros(r.len()));
     map_sites((inverse, &*r), &mut z, |(m, r), _| m * r);
     let (mut p, mut rz) = (z.clone(), dot(r, &z));
@@ -263,14 +226,17 @@ fn conjugate_gradients<T: Real, const D: usize>(
         let alpha = rz / curvature;
         axpy(u.as_mut_slice(), T::of(alpha), p.as_slice());
         axpy(r.as_mut_slice(), T::of(-alpha), q.as_slice());
-        if !goes_on(dot(r, r).sqrt()) {
-            lanczos.push(alpha, 0.0);
-            return Ok(lanczos.smallest());
-        }
+        lanczos.diagonal.push(1.0 / alpha + carried);
+        let more = goes_on(dot(r, r).sqrt());
         map_sites((inverse, &*r), &mut z, |(m, r), _| m * r);
         let next = dot(r, &z);
-        lanczos.push(alpha, next / rz);
-        xpby(z.as_slice(), T::of(next / rz), p.as_mut_slice());
+        let beta = next / rz;
+        lanczos.beside.push(beta.sqrt() / alpha);
+        if !more {
+            return Ok(lanczos.smallest());
+        }
+        carried = beta / alpha;
+        xpby(z.as_slice(), T::of(beta), p.as_mut_slice());
         rz = next;
     }
 }

@@ -7,8 +7,9 @@
 use crate::body::Dynamics;
 use crate::parallel::{map_pieces, sum_in_order};
 use crate::symbol::Symbol;
+use crate::tridiagonal::Tridiagonal;
 use crate::{Error, Real, Result};
-use nalgebra::{DMatrix, DVector, SVector};
+use nalgebra::{DVector, SVector};
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -50,7 +51,7 @@ fn noise(i: usize) -> f64 {
 }
 
 /// K q / ρ by central difference of the forces about u = 0.
-fn apply<T: Real, const D: usize, B: Dynamics<T, D>>(
+pub(crate) fn apply<T: Real, const D: usize, B: Dynamics<T, D>>(
     body: &mut B,
     q: &[SVector<f64, D>],
     out: &mut [SVector<f64, D>],
@@ -180,26 +181,6 @@ fn dominant_wave<T: Real, const D: usize, B: Dynamics<T, D>>(
     wave(DVector::from_vec(contents).imax())
 }
 
-/// The tridiagonal matrix that the iteration leaves.
-struct Tridiagonal {
-    alphas: Vec<f64>,
-    /// The last one leads out of the matrix.
-    betas: Vec<f64>,
-}
-
-impl Tridiagonal {
-    fn eigen(&self) -> (DVector<f64>, DMatrix<f64>) {
-        let k = self.alphas.len();
-        let eigen = DMatrix::from_fn(k, k, |i, j| match i.abs_diff(j) {
-            0 => self.alphas[i],
-            1 => self.betas[i.min(j)],
-            _ => 0.0,
-        })
-        .symmetric_eigen();
-        (eigen.eigenvalues, eigen.eigenvectors)
-    }
-}
-
 /// Calls `visit` with every vector of the iteration.
 fn lanczos<T: Real, const D: usize, B: Dynamics<T, D>>(
     body: &mut B,
@@ -216,22 +197,22 @@ fn lanczos<T: Real, const D: usize, B: Dynamics<T, D>>(
     q.iter_mut().for_each(|q| *q /= norm);
     let mut previous = vec![SVector::zeros(); n];
     let mut w = previous.clone();
-    let mut found = Tridiagonal { alphas: Vec::new(), betas: Vec::new() };
+    let mut found = Tridiagonal::default();
     let last = STEPS.min(D * n);
     for step in 1..=last {
         visit(&q);
         apply(body, &q, &mut w)?;
         let alpha = dot(&w, &q);
-        let back = found.betas.last().copied().unwrap_or(0.0);
+        let back = found.beside.last().copied().unwrap_or(0.0);
         for i in 0..n {
             w[i] -= q[i] * alpha + previous[i] * back;
         }
         let beta = dot(&w, &w).sqrt();
         let what = "force density of a small displacement of the body";
         Error::check(beta.is_finite(), what, beta, "finite")?;
-        found.alphas.push(alpha);
-        found.betas.push(beta);
-        let exhausted = beta <= 1e-12 * found.alphas[0].abs().max(alpha.abs());
+        found.diagonal.push(alpha);
+        found.beside.push(beta);
+        let exhausted = beta <= 1e-12 * found.diagonal[0].abs().max(alpha.abs());
         if exhausted || (step % 5 == 0 && ritz(&found).residual < TOLERANCE) {
             break;
         }
@@ -245,8 +226,8 @@ fn lanczos<T: Real, const D: usize, B: Dynamics<T, D>>(
 
 fn ritz(found: &Tridiagonal) -> Spectrum {
     let (values, vectors) = found.eigen();
-    let (top, k) = (values.imax(), found.alphas.len());
-    let residual = found.betas[k - 1] * vectors[(k - 1, top)].abs();
+    let (top, k) = (values.imax(), found.diagonal.len());
+    let residual = found.beside[k - 1] * vectors[(k - 1, top)].abs();
     Spectrum {
         largest: values[top] + residual,
         lowest: values.min(),

@@ -61,20 +61,19 @@ where
     M: Material<T, D>,
     C: EnergyCriterion<T, D, M>,
 {
-    /// δ_i in units of Δx.
-    type NodeConst = T;
+    /// δ_i in units of Δx and (δ/δ_i)^(D+1).
+    type NodeConst = (T, T);
     type NodeValue = ();
 
-    fn node_const(&self, _: usize, scale: Scale) -> T {
-        T::of(scale.horizon)
+    fn node_const(&self, _: usize, scale: Scale) -> (T, T) {
+        let size = (self.horizon / (scale.horizon * scale.unit)).powi(D as i32 + 1);
+        (T::of(scale.horizon), T::of(size))
     }
     #[inline(always)]
-    fn index(&self, tested: &TestedBond<'_, T, D, M, T, ()>) -> T {
-        let length = tested.bond.xi.norm().to_f64();
-        let share = |horizon: T| {
-            let horizon = horizon.to_f64();
-            let size = (self.horizon / (horizon * tested.unit)).powi(D as i32 + 1);
-            T::of(size * self.criterion.shape(length / horizon))
+    fn index(&self, tested: &TestedBond<'_, T, D, M, (T, T), ()>) -> T {
+        let length = tested.bond.xi.norm();
+        let share = |(horizon, size): (T, T)| {
+            size * T::of(self.criterion.shape((length / horizon).to_f64()))
         };
         let ([near, far], [a, b]) = (tested.ends, tested.constants);
         let share = (near.volume * share(*a) + far.volume * share(*b)) * T::of(0.5);
