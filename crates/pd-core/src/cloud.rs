@@ -666,7 +666,8 @@ where
         if rest == 0 {
             continue;
         }
-        let rows = job.cloud.is_rows(block);
+        // As for lattices, one loop where nothing is fused.
+        let rows = !fused || job.cloud.is_rows(block);
         if !rows {
             for part in (0..BLOCK).step_by(N) {
                 let (done, high) = job.sweep_lanes::<N>(block, part, first, out, fused);
@@ -681,7 +682,7 @@ where
         for lane in (0..BLOCK).filter(|lane| rest >> lane & 1 == 1) {
             let node = start + lane;
             // Taken for small bonds first, like the blocks of a lattice.
-            let mut arithmetic = Arithmetic { small: Kn::STRETCH && rows, fused };
+            let mut arithmetic = Arithmetic { small: Kn::STRETCH && rows && fused, fused };
             let (sum, high) = loop {
                 let (sum, low, high) = job.fold(node, spans[lane], arithmetic);
                 if !arithmetic.small || (low >= -limit && high <= limit) {

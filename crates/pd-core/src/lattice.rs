@@ -522,11 +522,12 @@ where
         }
         let near: Planes<'_, T, N> = job.u.block(start);
         let own_block = job.input.block::<N>(start);
-        let full = job.full::<N>(start);
+        // Only one loop is compiled for processors without fused instructions, which are old.
+        let full = fused && job.full::<N>(start);
         let block = (start, &near, &own_block);
-        let small = Arithmetic { small: Kn::STRETCH, fused };
+        let small = Arithmetic { small: Kn::STRETCH && fused, fused };
         let mut gathered = fold::<T, D, Kn, I, J, N>(job, full, block, small);
-        if Kn::STRETCH {
+        if small.small {
             let mut small = true;
             for l in 0..N {
                 small &= (gathered.high[l] <= limit) & (gathered.low[l] >= -limit);
