@@ -36,7 +36,8 @@ fn output(error: pd_io::Error) -> Error {
 pub struct Progress {
     label: String,
     out: Box<dyn Write>,
-    start: Option<Instant>,
+    /// When the first line was shown, and the share done then: 0 unless the run was resumed.
+    start: Option<(Instant, f64)>,
     margin: Option<Margin>,
 }
 
@@ -51,9 +52,10 @@ impl Progress {
     }
 
     fn show<T: Real, const D: usize, B: Dynamics<T, D>>(&mut self, view: &View<'_, B>) -> Flow {
-        let elapsed = self.start.get_or_insert_with(Instant::now).elapsed().as_secs_f64();
         let done = if view.end > 0.0 { (view.time / view.end).min(1.0) } else { 1.0 };
-        let left = if done > 0.0 { elapsed * (1.0 - done) / done } else { 0.0 };
+        let (start, before) = *self.start.get_or_insert_with(|| (Instant::now(), done));
+        let elapsed = start.elapsed().as_secs_f64();
+        let left = if done > before { elapsed * (1.0 - done) / (done - before) } else { 0.0 };
         let filled = (done * 24.0) as usize;
         let bar = format!("{}{}", "#".repeat(filled), ".".repeat(24 - filled));
         let (label, percent, step, time) = (&self.label, 100.0 * done, view.step, view.time);

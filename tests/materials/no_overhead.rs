@@ -227,6 +227,11 @@ fn a_capability_costs_its_own_arrays_alone() {
     let mut expected = foster;
     (expected[2], expected[5]) = (spared[2], foster[5] + scalar);
     assert_eq!(spared, expected, "nodes that cannot fail");
+    // Either of two criteria: the nodes that both spare.
+    let left = grid.select(|x| x[0] < 2.0);
+    let either = energy().sparing(&some).or(energy().sparing(&left));
+    let either = parts(Body::new(lattice(), lps(), Breaking::new(either).precracked(notch())));
+    assert_eq!(either[2], spared[2], "nodes that neither criterion lets fail");
 
     let nosb = || Correspondence::new(LinearElastic(stiffness), 1e3, linear).expect("law");
     let bare = parts(Body::new(lattice(), nosb(), NoDamage));

@@ -99,6 +99,9 @@ where
         let second = self.1.index(&bond.seen_by([&c0.1, &c1.1], [&v0.1, &v1.1]));
         first.max(second)
     }
+    fn can_break(&self, node: usize) -> bool {
+        self.0.can_break(node) || self.1.can_break(node)
+    }
     fn validate(&self, nodes: usize) -> Result<()> {
         self.0.validate(nodes)?;
         self.1.validate(nodes)
