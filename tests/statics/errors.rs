@@ -79,6 +79,29 @@ fn an_unstable_material() {
 }
 
 #[test]
+fn an_unstable_material_between_faces() {
+    use pd_testkit::scabbia63::{Conditions, Plate};
+    let ply = peridynamics::models::elasticity::catalogue::GLASS_EPOXY;
+    let stiffness = Stiffness::<2>::lamina(&ply).expect("ply").rotated(40_f64.to_radians());
+    let plate = Plate {
+        dx: 10e-3,
+        m: 3.0,
+        quadrature: Quadrature::Exact,
+        conditions: Conditions::Faces,
+        tolerance: 1e-6,
+    };
+    let omega = InfluenceFunction::Gaussian;
+    let polynomial = PolynomialMicromoduli::plane(&stiffness, 1e3, omega).expect("material");
+    let solved = plate.solve::<f64, _>(Ordinary::linearised(polynomial), |_| {});
+    let Some(Error::IndefiniteOperator { curvature, wave, .. }) = solved.err() else {
+        panic!("an equilibrium that is not stable is refused")
+    };
+    assert!(curvature < 0.0 && wave.iter().any(|k| *k != 0.0), "{curvature} {wave:?}");
+    let split = PositiveSplit::plane(&stiffness, 1e3, omega).expect("material");
+    plate.solve::<f64, _>(Ordinary::linearised(split), |_| {}).expect("a stable one is solved");
+}
+
+#[test]
 fn too_few_iterations_and_velocities() {
     let left = grid().select(|x| x[0] < -9e-3);
     let right = grid().select(|x| x[0] > 9e-3);

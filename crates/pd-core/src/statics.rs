@@ -242,7 +242,8 @@ fn conjugate_gradients<T: Real, const D: usize>(
 }
 
 /// The same for an operator that is not symmetric: stabilised bi-conjugate gradients. Ends early
-/// where they break down.
+/// where they break down. They would find an equilibrium that is not stable too: a direction with a
+/// negative curvature is refused.
 fn bi_conjugate_gradients<T: Real, const D: usize>(
     (operator, inverse): System<'_, T, D>,
     body: &mut impl Dynamics<T, D>,
@@ -251,11 +252,18 @@ fn bi_conjugate_gradients<T: Real, const D: usize>(
     goes_on: &mut dyn FnMut(f64) -> bool,
 ) -> Result<()> {
     let [mut z, mut v, mut t] = std::array::from_fn(|_| Field::zeros(r.len()));
+    let mut iteration = 0;
     // out = A z with z = M q.
-    let apply = |body: &mut _, q: &Vectors<T, D>, z: &mut Vectors<T, D>, out: &mut _| {
+    let mut apply = |body: &mut _, q: &Vectors<T, D>, z: &mut Vectors<T, D>, out: &mut _| {
+        iteration += 1;
         map_sites((inverse, q), z, |(m, q), _| m * q);
         operator.mirror(z);
-        operator.apply(body, z, out)
+        operator.apply(body, z, out)?;
+        let curvature = dot(z, out);
+        if curvature < 0.0 {
+            return Err(operator.indefinite(body, z, curvature, iteration));
+        }
+        Ok(())
     };
     let (shadow, mut p) = (r.clone(), r.clone());
     let mut rho = dot(&shadow, r);
