@@ -12,11 +12,15 @@ use peridynamics::prelude::*;
 use scenes::{M, RHO, cloud, grid, lattice, stretch, wave};
 use std::fmt::Write;
 use std::hint::black_box;
+use std::process::Command;
 use std::time::Instant;
 
 /// Cells along an edge of the timed bodies.
 const EDGE2: usize = 256;
 const EDGE3: usize = 48;
+/// The same where instructions are counted.
+const SMALL2: usize = 96;
+const SMALL3: usize = 24;
 
 /// FMA in GFLOP/s of one core, f64.
 #[multiversion(targets("x86_64+avx512f+avx512vl+fma", "x86_64+avx2+fma"))]
@@ -50,6 +54,59 @@ fn triad() -> f64 {
         black_box(&mut a);
     });
     24e-9 * n as f64 / seconds
+}
+
+/// Runs steps of one scene in small and prints its directed bonds: what [`instructions`] counts.
+struct Counted {
+    name: String,
+    steps: usize,
+}
+
+impl scenes::Visit for Counted {
+    fn scene<T, const D: usize, F, M, P>(
+        &mut self,
+        name: &str,
+        _: f64,
+        body: impl FnOnce() -> Result<Body<T, D, F, M, P>>,
+    ) where
+        T: Real,
+        F: Family<T, D>,
+        M: Material<T, D>,
+        P: DamagePolicy<T, D, M>,
+    {
+        if format!("{name}, {}", T::NAME) == self.name {
+            let mut body = body().expect("body");
+            wave(&mut body);
+            for _ in 0..self.steps {
+                body.evaluate_and_break(1, &mut ()).expect("step");
+            }
+            println!("{}", 2 * body.family().bonds());
+        }
+    }
+}
+
+const COUNTED: &str = "PD_COUNTED";
+
+/// Instructions per directed bond and step, counted by valgrind, which offers AVX2 and no more: a
+/// program of two steps over that of one. None without valgrind.
+///
+/// By hand and not with gungraun: its benchmarks are functions with a name, these are generic.
+fn instructions(name: &str) -> Option<f64> {
+    let run = |steps: usize| {
+        let output = Command::new("valgrind")
+            .args(["--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"])
+            .arg(std::env::current_exe().ok()?)
+            .env(COUNTED, format!("{steps} {name}"))
+            .output()
+            .ok()?;
+        let told = String::from_utf8_lossy(&output.stderr);
+        let count = told.lines().find_map(|line| line.split_once("I refs:"))?.1;
+        let count: f64 = count.replace(',', "").trim().parse().ok()?;
+        let bonds: f64 = String::from_utf8_lossy(&output.stdout).trim().parse().ok()?;
+        Some((count, bonds))
+    };
+    let ((one, bonds), (two, _)) = (run(1)?, run(2)?);
+    Some((two - one) / bonds)
 }
 
 /// One line of the table.
@@ -93,7 +150,7 @@ impl Line {
         // Every array of the body is read or written about once per pass.
         let traffic = 100.0 * self.bytes / self.median * 1e-9 / bandwidth;
         format!(
-            "| {} | {:.2} | {:.2} | {:.2} | {:.0} | {} | {traffic:.0} | {:.0} | {:.2} |",
+            "| {} | {:.2} | {:.2} | {:.2} | {:.0} | {} | {traffic:.0} | {:.0} | {:.2} | {} |",
             self.name,
             self.per_bond(),
             self.target,
@@ -102,6 +159,7 @@ impl Line {
             share.map_or(String::from("–"), |share| format!("{share:.0}")),
             self.bytes / self.nodes,
             self.bytes / self.directed * 2.0,
+            instructions(&self.name).map_or(String::from("–"), |count| format!("{count:.1}")),
         )
     }
 }
@@ -226,6 +284,15 @@ fn scaling(report: &mut Report) {
 }
 
 fn main() {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("pool");
+    if let Ok(counted) = std::env::var(COUNTED) {
+        let (steps, name) = counted.split_once(' ').expect("steps and a name");
+        let mut scene = Counted { name: name.to_owned(), steps: steps.parse().expect("steps") };
+        return pool.install(|| {
+            scenes::all::<f64>([SMALL2, SMALL3], &mut scene);
+            scenes::all::<f32>([SMALL2, SMALL3], &mut scene);
+        });
+    }
     let words: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let all = words.is_empty();
     let mut report = Report { words, text: String::new(), peak: fma_peak(), bandwidth: triad() };
@@ -235,7 +302,8 @@ fn main() {
         "Written by `cargo bench --bench report` on {}. One core: {:.0} GFLOP/s of fused \
          multiply-add in f64, {:.1} GB/s of triad. Processor time of one thread: states, bond test \
          and forces of a step (2D {EDGE2}², 3D {EDGE3}³ nodes, m = {M}; nothing breaks). Flops are \
-         counted in the source; traffic takes every array of the body once.\n",
+         counted in the source; traffic takes every array of the body once. Instructions are those \
+         of AVX2 per directed bond, counted by valgrind (2D {SMALL2}², 3D {SMALL3}³ nodes).\n",
         machine(),
         report.peak,
         report.bandwidth,
@@ -244,10 +312,9 @@ fn main() {
     report.say(&head);
     report.say(
         "| model | ns per directed bond | target | M node-steps/s | M bond-steps/s | % of FMA | \
-         % of bandwidth | bytes per node | bytes per bond |",
+         % of bandwidth | bytes per node | bytes per bond | instructions |",
     );
-    report.say("| --- | --- | --- | --- | --- | --- | --- | --- | --- |");
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("pool");
+    report.say("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     pool.install(|| {
         scenes::all::<f64>([EDGE2, EDGE3], &mut report);
         scenes::all::<f32>([EDGE2, EDGE3], &mut report);
