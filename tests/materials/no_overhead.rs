@@ -120,8 +120,8 @@ fn a_cloud_holds_batches() {
         let exact = 8 * batches + 16 * (blocks + 1) + nodes * (3 * 8 + 8) + shapes;
         assert!(family <= exact + 256, "{family} bytes, {exact} needed");
         assert_eq!(constants, 122 * 5 * scalar);
-        // Two bytes a batch, and a byte to mark each node.
-        let most = 8 * (2 * batches + nodes);
+        // Two bytes a batch, where those of a block are, and a byte to mark each node.
+        let most = 8 * (2 * batches + 4 * (blocks + 1) + nodes);
         assert!(bits <= (most + 64) as f64 / (0.5 * directed as f64), "{bits}");
     }
     check::<f64>(8);
@@ -233,6 +233,38 @@ fn a_capability_costs_its_own_arrays_alone() {
     let either = parts(Body::new(lattice(), lps(), Breaking::new(either).precracked(notch())));
     assert_eq!(either[2], spared[2], "nodes that neither criterion lets fail");
 
+    // In a cloud too, by blocks of sixteen nodes: two bytes for every shape of a bond in the block.
+    let points = Points::from_grid(&grid);
+    let cloud = || Cloud::new(&points, Horizon::Metres(3.015), Quadrature::None).expect("cloud");
+    let whole = Body::<f64, 3, _, _, _>::new(cloud(), lps(), Precracked::by(notch()));
+    let whole = whole.expect("body");
+    let held = |wanted: &dyn Fn(usize, &Neighbour<3>) -> bool| {
+        let block = |block: usize| {
+            let (mut shapes, mut needed) = (HashSet::new(), false);
+            for node in 16 * block..16 * (block + 1) {
+                whole.neighbours(node, |n| {
+                    shapes.insert(n.xi.map(|x| x as i32));
+                    needed |= wanted(node, &n);
+                });
+            }
+            if needed { 2 * shapes.len() } else { 0 }
+        };
+        (0..points.len() / 16).map(block).sum::<usize>()
+            + 4 * (points.len() / 16 + 1)
+            + points.len()
+    };
+    let cracked = parts(Body::new(cloud(), lps(), Precracked::by(notch())));
+    assert_eq!(cracked[2], held(&|_, n| !n.intact), "bits along the notch");
+    let breaking = Breaking::new(energy()).precracked(notch());
+    let breaking = parts(Body::new(cloud(), lps(), breaking));
+    assert_eq!(breaking[2], held(&|_, _| true), "bits of all bonds");
+    let low = grid.select(|x| x[1] < 1.0);
+    let spared = Breaking::new(energy().sparing(&low)).precracked(notch());
+    let spared = parts(Body::new(cloud(), lps(), spared));
+    let able = |i, n: &Neighbour<3>| !n.intact || !(low.contains(i) || low.contains(n.node));
+    assert_eq!(spared[2], held(&able), "bits where bonds can break");
+    assert!(cracked[2] < breaking[2] / 2 && 10 * spared[2] < 9 * breaking[2]);
+
     let nosb = || Correspondence::new(LinearElastic(stiffness), 1e3, linear).expect("law");
     let bare = parts(Body::new(lattice(), nosb(), NoDamage));
     let law = SaintVenantKirchhoff(stiffness);
@@ -240,8 +272,7 @@ fn a_capability_costs_its_own_arrays_alone() {
     differ("finite strain", bare, parts(Body::new(lattice(), finite, NoDamage)), &[]);
 
     // One horizon per node, all alike, is one number per node: shapes of bonds are shared.
-    let points = Points::from_grid(&grid);
-    let one = Cloud::new(&points, Horizon::Metres(3.015), Quadrature::None).expect("cloud");
+    let one = cloud();
     let each = vec![3.015; points.len()];
     let graded = Cloud::graded(&points, &each, Quadrature::None).expect("cloud");
     let one = parts(Body::new(one, lps(), NoDamage));

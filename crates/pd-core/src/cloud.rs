@@ -129,25 +129,35 @@ pub struct RowTable<K> {
     mate: Option<Vec<K>>,
 }
 
-/// One bit per directed bond: those of a batch in two bytes.
+/// One bit per directed bond, those of a batch in two bytes, in blocks where bonds can break or are cut.
 #[derive(Debug)]
 pub struct CloudBits {
+    /// Where those of every block begin; one entry more than blocks.
+    begins: Vec<u32>,
     bytes: Vec<u8>,
     /// Per node: 1 if it lost a bond since the marks were cleared.
     marks: Vec<AtomicU8>,
 }
 
 impl CloudBits {
+    fn range(&self, block: usize) -> Range<usize> {
+        self.begins[block] as usize..self.begins[block + 1] as usize
+    }
+}
+
+/// The bits of a block that has some.
+#[derive(Clone, Copy)]
+struct BlockBits<'a> {
+    bytes: &'a [u8],
+    /// The block's first batch.
+    first: usize,
+}
+
+impl BlockBits<'_> {
     #[inline(always)]
-    fn batch(&self, batch: usize) -> u16 {
-        u16::from_le_bytes([self.bytes[2 * batch], self.bytes[2 * batch + 1]])
-    }
-    fn intact(&self, bond: &Entry) -> bool {
-        self.batch(bond.batch) >> bond.bit & 1 == 1
-    }
-    fn lose(&mut self, node: usize, bond: &Entry) {
-        self.bytes[2 * bond.batch + bond.bit as usize / 8] &= !(1 << (bond.bit % 8));
-        *self.marks[node].get_mut() = 1;
+    fn batch(self, batch: usize) -> u16 {
+        let at = 2 * (batch - self.first);
+        u16::from_le_bytes([self.bytes[at], self.bytes[at + 1]])
     }
 }
 
@@ -339,7 +349,7 @@ impl<T: Real, const D: usize> Cloud<T, D> {
         &'a self,
         [begin, end]: [Start; 2],
         lane: usize,
-        bits: Option<&'a CloudBits>,
+        bits: Option<BlockBits<'a>>,
     ) -> Walk<'a, T, D> {
         let before = Start { batch: begin.batch.wrapping_sub(1), ..begin };
         let none = Batch { far: 0, kind: 0, there: 0 };
@@ -364,12 +374,63 @@ impl<T: Real, const D: usize> Cloud<T, D> {
     fn find(&self, node: usize, far: usize) -> Option<Entry> {
         self.bonds_of(node).find(|bond| bond.far == far)
     }
+    /// The bits of a block; none if all its bonds are intact.
+    #[inline(always)]
+    fn block_bits<'a>(&self, bits: Option<&'a CloudBits>, block: usize) -> Option<BlockBits<'a>> {
+        let bits = bits?;
+        let range = bits.range(block);
+        let held = !range.is_empty();
+        held.then(|| BlockBits { bytes: &bits.bytes[range], first: self.blocks[block].batch })
+    }
+    fn is_intact(&self, bits: Option<&CloudBits>, node: usize, bond: &Entry) -> bool {
+        let bits = self.block_bits(bits, node / BLOCK);
+        bits.is_none_or(|bits| bits.batch(bond.batch) >> bond.bit & 1 == 1)
+    }
+    /// No bits: every bond is intact.
+    fn no_bits(&self) -> CloudBits {
+        let marks = (0..self.nodes()).map(|_| AtomicU8::new(0)).collect();
+        CloudBits { begins: vec![0; self.blocks.len()], bytes: Vec::new(), marks }
+    }
+    /// Gives bits to blocks that have none.
+    fn hold(&self, bits: &mut CloudBits, blocks: &[bool]) {
+        let mut bytes = Vec::new();
+        let mut begins = vec![0];
+        for (block, &wanted) in blocks.iter().enumerate() {
+            let range = bits.range(block);
+            if wanted && range.is_empty() {
+                let [begin, end] = [self.blocks[block].batch, self.blocks[block + 1].batch];
+                let batches = &self.batches[begin..end];
+                bytes.extend(batches.iter().flat_map(|batch| batch.there.to_le_bytes()));
+            } else {
+                bytes.extend_from_slice(&bits.bytes[range]);
+            }
+            begins.push(bytes.len() as u32);
+        }
+        bytes.shrink_to_fit();
+        (bits.begins, bits.bytes) = (begins, bytes);
+    }
+    /// Breaks directed bonds.
+    fn lose(&self, bits: &mut CloudBits, lost: &[(usize, Entry)]) {
+        let missing = |(node, _): &&(usize, Entry)| bits.range(node / BLOCK).is_empty();
+        if lost.iter().any(|bond| missing(&bond)) {
+            let mut blocks = vec![false; self.blocks.len() - 1];
+            lost.iter().for_each(|(node, _)| blocks[node / BLOCK] = true);
+            self.hold(bits, &blocks);
+        }
+        for (node, bond) in lost {
+            let first = self.blocks[node / BLOCK].batch;
+            let byte = 2 * (bond.batch - first) + bond.bit as usize / 8;
+            let begin = bits.range(node / BLOCK).start;
+            bits.bytes[begin + byte] &= !(1 << (bond.bit % 8));
+            *bits.marks[*node].get_mut() = 1;
+        }
+    }
 }
 
 /// The bonds of a node.
 struct Walk<'a, T, const D: usize> {
     cloud: &'a Cloud<T, D>,
-    bits: Option<&'a CloudBits>,
+    bits: Option<BlockBits<'a>>,
     /// The node's place in its block.
     lane: usize,
     at: Start,
@@ -786,10 +847,11 @@ where
         let mut gathered = Gathered::nothing();
         let [begin, end] = [self.cloud.blocks[block], self.cloud.blocks[block + 1]];
         let lanes = u32::MAX >> (u32::BITS as usize - N);
+        let bits = self.cloud.block_bits(self.bits, block);
         let mut list = begin.listed;
         for at in begin.batch..end.batch {
             let batch = self.cloud.batches[at];
-            let there = self.bits.map_or(batch.there, |bits| bits.batch(at));
+            let there = bits.map_or(batch.there, |bits| bits.batch(at));
             let there = u32::from(there) >> part & lanes;
             let (u, other) = if batch.far == LISTED {
                 let mut nodes = [0; N];
@@ -828,7 +890,8 @@ where
         let u = self.u.get(node);
         let mut sum = <Kn::Sum as Record<T>>::zero();
         let (mut low, mut high) = (T::zero(), T::zero());
-        for at in self.cloud.walk(span, node % BLOCK, self.bits) {
+        let bits = self.cloud.block_bits(self.bits, node / BLOCK);
+        for at in self.cloud.walk(span, node % BLOCK, bits) {
             let shape = &self.cloud.shapes[at.shape];
             let far = self.u.block::<1>(at.far);
             let eta = SVector::from_fn(|d, _| far.plane(d)[0]) - u;
@@ -917,35 +980,40 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         (table.own.capacity() + table.mate.as_ref().map_or(0, Vec::capacity)) * size_of::<K>()
     }
 
-    fn intact(&self, _breakable: &(dyn Fn(usize) -> bool + Sync)) -> CloudBits {
-        let bytes = self.batches.iter().flat_map(|batch| batch.there.to_le_bytes()).collect();
-        let marks = (0..self.nodes()).map(|_| AtomicU8::new(0)).collect();
-        CloudBits { bytes, marks }
+    fn intact(&self, breakable: &(dyn Fn(usize) -> bool + Sync)) -> CloudBits {
+        let able: Vec<bool> = (0..self.nodes()).map(breakable).collect();
+        let breaks = |node: usize| able[node] && self.bonds_of(node).any(|bond| able[bond.far]);
+        let blocks = (0..self.blocks.len() - 1)
+            .into_par_iter()
+            .map(|block| (block * BLOCK..self.nodes().min((block + 1) * BLOCK)).any(breaks));
+        let mut bits = self.no_bits();
+        self.hold(&mut bits, &blocks.collect::<Vec<bool>>());
+        bits
     }
     fn bits_bytes(bits: &CloudBits) -> usize {
-        bits.bytes.capacity() + bits.marks.capacity()
+        4 * bits.begins.capacity() + bits.bytes.capacity() + bits.marks.capacity()
     }
     fn cut(&self, bits: &mut CloudBits, cuts: &(dyn Fn(usize, usize) -> bool + Sync)) -> usize {
-        let mut count = 0;
+        let mut lost = Vec::new();
         for node in 0..self.nodes() {
-            for bond in self.bonds_of(node) {
-                if bits.intact(&bond) && cuts(node.min(bond.far), node.max(bond.far)) {
-                    bits.lose(node, &bond);
-                    count += usize::from(node < bond.far);
-                }
-            }
+            let cut = self.bonds_of(node).filter(|bond| {
+                self.is_intact(Some(bits), node, bond)
+                    && cuts(node.min(bond.far), node.max(bond.far))
+            });
+            lost.extend(cut.map(|bond| (node, bond)));
         }
-        count
+        self.lose(bits, &lost);
+        lost.iter().filter(|(node, bond)| *node < bond.far).count()
     }
     fn isolate(&self, bits: &mut CloudBits, node: usize) -> usize {
-        let mut count = 0;
-        for bond in self.bonds_of(node) {
-            if bits.intact(&bond) {
-                count += 1;
-                bits.lose(node, &bond);
-                self.find(bond.far, node).iter().for_each(|back| bits.lose(bond.far, back));
-            }
+        let intact = self.bonds_of(node).filter(|bond| self.is_intact(Some(bits), node, bond));
+        let mut lost: Vec<_> = intact.map(|bond| (node, bond)).collect();
+        let count = lost.len();
+        for own in 0..count {
+            let far = lost[own].1.far;
+            lost.extend(self.find(far, node).map(|back| (far, back)));
         }
+        self.lose(bits, &lost);
         count
     }
     fn marked(&self, bits: &CloudBits, visit: &mut dyn FnMut(usize)) {
@@ -958,32 +1026,60 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     }
     fn copy_bits(bits: &CloudBits) -> CloudBits {
         let marks = bits.marks.iter().map(|x| AtomicU8::new(x.load(Relaxed))).collect();
-        CloudBits { bytes: bits.bytes.clone(), marks }
+        CloudBits { begins: bits.begins.clone(), bytes: bits.bytes.clone(), marks }
     }
     fn copy_marks(bits: &mut CloudBits, other: &CloudBits) {
         for (mark, from) in bits.marks.iter_mut().zip(&other.marks) {
             *mark.get_mut() = from.load(Relaxed);
         }
     }
+    /// The bits of every block that has some, its number before them.
     fn bits_as_bytes(bits: &CloudBits) -> Vec<u8> {
-        bits.bytes.clone()
+        let mut bytes = Vec::new();
+        for block in 0..bits.begins.len() - 1 {
+            let range = bits.range(block);
+            if !range.is_empty() {
+                bytes.extend_from_slice(&(block as u32).to_le_bytes());
+                bytes.extend_from_slice(&bits.bytes[range]);
+            }
+        }
+        bytes
     }
-    fn bits_from_bytes(&self, bytes: &[u8]) -> Option<CloudBits> {
-        let mut bits = self.intact(&|_| true);
-        let fits = bits.bytes.len() == bytes.len()
-            && bits.bytes.iter().zip(bytes).all(|(all, kept)| kept & !all == 0);
+    fn bits_from_bytes(&self, mut bytes: &[u8]) -> Option<CloudBits> {
+        let mut blocks = vec![false; self.blocks.len() - 1];
+        let (mut kept, mut next) = (Vec::new(), 0);
+        while let Some((number, rest)) = bytes.split_first_chunk() {
+            let block = u32::from_le_bytes(*number) as usize;
+            // Blocks come once, in their order.
+            if block < next || block >= blocks.len() {
+                return None;
+            }
+            next = block + 1;
+            blocks[block] = true;
+            let batches = self.blocks[block + 1].batch - self.blocks[block].batch;
+            let (own, rest) = rest.split_at_checked(2 * batches)?;
+            kept.extend_from_slice(own);
+            bytes = rest;
+        }
+        let mut bits = self.no_bits();
+        self.hold(&mut bits, &blocks);
+        let fits = bytes.is_empty()
+            && bits.bytes.len() == kept.len()
+            && bits.bytes.iter().zip(&kept).all(|(all, kept)| kept & !all == 0);
         if !fits {
             return None;
         }
-        bits.bytes.copy_from_slice(bytes);
+        bits.bytes = kept;
         // A bond is broken for both of its ends.
+        let bits = Some(bits);
+        let intact = |node, bond: &_| self.is_intact(bits.as_ref(), node, bond);
         let agree = (0..self.nodes()).into_par_iter().all(|node| {
             self.bonds_of(node).all(|bond| {
                 let back = || self.find(bond.far, node);
-                bits.intact(&bond) || back().is_some_and(|back| !bits.intact(&back))
+                intact(node, &bond) || back().is_some_and(|back| !intact(bond.far, &back))
             })
         });
-        agree.then_some(bits)
+        bits.filter(|_| agree)
     }
     fn neighbours(
         &self,
@@ -997,7 +1093,7 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
                 node: bond.far,
                 xi: shape.xi64(),
                 volume: shape.volumes[0].to_f64(),
-                intact: bits.is_none_or(|bits| bits.intact(&bond)),
+                intact: self.is_intact(bits, node, &bond),
             });
         }
     }
@@ -1011,7 +1107,7 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         into.clear();
         for bond in self.bonds_of(node) {
             let shape = &self.shapes[bond.shape];
-            let intact = bits.is_none_or(|bits| bits.intact(&bond));
+            let intact = self.is_intact(bits, node, &bond);
             if intact && shape.volumes[0] > T::zero() {
                 let volume = shape.volumes[0].to_f64();
                 into.push(Member { xi: shape.xi64(), volume, bond: table.own[bond.shape] });
@@ -1093,8 +1189,8 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
             }
             tally
         };
-        let CloudBits { bytes, marks } = bits;
-        break_range(&one_block, 0, &self.blocks, bytes, marks)
+        let CloudBits { begins, bytes, marks } = bits;
+        break_range(&one_block, 0, begins, bytes, marks)
     }
 }
 
@@ -1114,22 +1210,26 @@ fn fuses() -> bool {
 fn break_range(
     one_block: &(dyn Fn(usize, &mut [u8], &mut [AtomicU8]) -> Tally + Sync),
     first: usize,
-    starts: &[Start],
+    begins: &[u32],
     bytes: &mut [u8],
     marks: &mut [AtomicU8],
 ) -> Tally {
-    let byte = |block: usize| 2 * (starts[block].batch - starts[0].batch);
+    let byte = |block: usize| (begins[block] - begins[0]) as usize;
     if marks.len() > CHUNK {
-        let mid = (starts.len() - 1) / 2;
+        let mid = (begins.len() - 1) / 2;
         let (low, high) = bytes.split_at_mut(byte(mid));
         let (low_marks, high_marks) = marks.split_at_mut(mid * BLOCK);
         let (a, b) = rayon::join(
-            || break_range(one_block, first, &starts[..=mid], low, low_marks),
-            || break_range(one_block, first + mid, &starts[mid..], high, high_marks),
+            || break_range(one_block, first, &begins[..=mid], low, low_marks),
+            || break_range(one_block, first + mid, &begins[mid..], high, high_marks),
         );
         return a.merge(b);
     }
     marks.chunks_mut(BLOCK).enumerate().fold(Tally::default(), |tally, (block, marks)| {
-        tally.merge(one_block(first + block, &mut bytes[byte(block)..byte(block + 1)], marks))
+        let range = byte(block)..byte(block + 1);
+        if range.is_empty() {
+            return tally;
+        }
+        tally.merge(one_block(first + block, &mut bytes[range], marks))
     })
 }
