@@ -392,12 +392,13 @@ impl<T: Real, const D: usize> Cloud<T, D> {
         CloudBits { begins: vec![0; self.blocks.len()], bytes: Vec::new(), marks }
     }
     /// Gives bits to blocks that have none.
-    fn hold(&self, bits: &mut CloudBits, blocks: &[bool]) {
-        let mut bytes = Vec::new();
-        let mut begins = vec![0];
-        for (block, &wanted) in blocks.iter().enumerate() {
+    fn hold(&self, bits: &mut CloudBits, blocks: &dyn Fn(usize) -> bool) {
+        let count = self.blocks.len() - 1;
+        let (mut begins, mut bytes) = (Vec::with_capacity(count + 1), Vec::new());
+        begins.push(0);
+        for block in 0..count {
             let range = bits.range(block);
-            if wanted && range.is_empty() {
+            if range.is_empty() && blocks(block) {
                 let [begin, end] = [self.blocks[block].batch, self.blocks[block + 1].batch];
                 let batches = &self.batches[begin..end];
                 bytes.extend(batches.iter().flat_map(|batch| batch.there.to_le_bytes()));
@@ -409,21 +410,17 @@ impl<T: Real, const D: usize> Cloud<T, D> {
         bytes.shrink_to_fit();
         (bits.begins, bits.bytes) = (begins, bytes);
     }
-    /// Breaks directed bonds.
-    fn lose(&self, bits: &mut CloudBits, lost: &[(usize, Entry)]) {
-        let missing = |(node, _): &&(usize, Entry)| bits.range(node / BLOCK).is_empty();
-        if lost.iter().any(|bond| missing(&bond)) {
-            let mut blocks = vec![false; self.blocks.len() - 1];
-            lost.iter().for_each(|(node, _)| blocks[node / BLOCK] = true);
-            self.hold(bits, &blocks);
+    /// Breaks a bond for one of its ends.
+    fn lose(&self, bits: &mut CloudBits, node: usize, bond: &Entry) {
+        let own = node / BLOCK;
+        if bits.range(own).is_empty() {
+            self.hold(bits, &|block| block == own);
         }
-        for (node, bond) in lost {
-            let first = self.blocks[node / BLOCK].batch;
-            let byte = 2 * (bond.batch - first) + bond.bit as usize / 8;
-            let begin = bits.range(node / BLOCK).start;
-            bits.bytes[begin + byte] &= !(1 << (bond.bit % 8));
-            *bits.marks[*node].get_mut() = 1;
-        }
+        let first = self.blocks[own].batch;
+        let byte = 2 * (bond.batch - first) + bond.bit as usize / 8;
+        let begin = bits.range(own).start;
+        bits.bytes[begin + byte] &= !(1 << (bond.bit % 8));
+        *bits.marks[node].get_mut() = 1;
     }
 }
 
@@ -986,8 +983,8 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         let blocks = (0..self.blocks.len() - 1)
             .into_par_iter()
             .map(|block| (block * BLOCK..self.nodes().min((block + 1) * BLOCK)).any(breaks));
-        let mut bits = self.no_bits();
-        self.hold(&mut bits, &blocks.collect::<Vec<bool>>());
+        let (blocks, mut bits) = (blocks.collect::<Vec<bool>>(), self.no_bits());
+        self.hold(&mut bits, &|block| blocks[block]);
         bits
     }
     fn bits_bytes(bits: &CloudBits) -> usize {
@@ -995,25 +992,33 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
     }
     fn cut(&self, bits: &mut CloudBits, cuts: &(dyn Fn(usize, usize) -> bool + Sync)) -> usize {
         let mut lost = Vec::new();
+        let mut blocks = vec![false; self.blocks.len() - 1];
         for node in 0..self.nodes() {
-            let cut = self.bonds_of(node).filter(|bond| {
-                self.is_intact(Some(bits), node, bond)
+            for bond in self.bonds_of(node) {
+                if self.is_intact(Some(bits), node, &bond)
                     && cuts(node.min(bond.far), node.max(bond.far))
-            });
-            lost.extend(cut.map(|bond| (node, bond)));
+                {
+                    blocks[node / BLOCK] = true;
+                    lost.push((node, bond));
+                }
+            }
         }
-        self.lose(bits, &lost);
+        // At once for all: bits are laid out anew.
+        self.hold(bits, &|block| blocks[block]);
+        lost.iter().for_each(|(node, bond)| self.lose(bits, *node, bond));
         lost.iter().filter(|(node, bond)| *node < bond.far).count()
     }
     fn isolate(&self, bits: &mut CloudBits, node: usize) -> usize {
-        let intact = self.bonds_of(node).filter(|bond| self.is_intact(Some(bits), node, bond));
-        let mut lost: Vec<_> = intact.map(|bond| (node, bond)).collect();
-        let count = lost.len();
-        for own in 0..count {
-            let far = lost[own].1.far;
-            lost.extend(self.find(far, node).map(|back| (far, back)));
+        let mut count = 0;
+        for bond in self.bonds_of(node) {
+            if self.is_intact(Some(bits), node, &bond) {
+                count += 1;
+                self.lose(bits, node, &bond);
+                if let Some(back) = self.find(bond.far, node) {
+                    self.lose(bits, bond.far, &back);
+                }
+            }
         }
-        self.lose(bits, &lost);
         count
     }
     fn marked(&self, bits: &CloudBits, visit: &mut dyn FnMut(usize)) {
@@ -1062,7 +1067,7 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
             bytes = rest;
         }
         let mut bits = self.no_bits();
-        self.hold(&mut bits, &blocks);
+        self.hold(&mut bits, &|block| blocks[block]);
         let fits = bytes.is_empty()
             && bits.bytes.len() == kept.len()
             && bits.bytes.iter().zip(&kept).all(|(all, kept)| kept & !all == 0);
