@@ -100,7 +100,7 @@ fn instructions(name: &str) -> Option<f64> {
             .output()
             .ok()?;
         let told = String::from_utf8_lossy(&output.stderr);
-        let count = told.lines().find_map(|line| line.split_once("I refs:"))?.1;
+        let count = told.lines().find_map(|line| line.split_once("refs:"))?.1;
         let count: f64 = count.replace(',', "").trim().parse().ok()?;
         let bonds: f64 = String::from_utf8_lossy(&output.stdout).trim().parse().ok()?;
         Some((count, bonds))
