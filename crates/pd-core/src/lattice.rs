@@ -371,8 +371,10 @@ impl<T: Real, const D: usize> Lattice<T, D> {
         if from >= self.sites {
             return 0;
         }
-        let part = |part: usize| u32::from(byte(from / LANES + part)) << (part * LANES);
-        let word = (0..=N / LANES).fold(0, |word, p| word | part(p));
+        let mut word = 0;
+        for part in 0..N / LANES + 1 {
+            word |= u32::from(byte(from / LANES + part)) << (part * LANES);
+        }
         word >> (from % LANES) & ((1 << N) - 1)
     }
 }
