@@ -121,6 +121,8 @@ struct Line {
     target: f64,
     /// Flops per directed bond (fused multiply-adds count two), where they were counted.
     flops: Option<f64>,
+    /// See [`instructions`].
+    instructions: Option<f64>,
 }
 
 /// Flops per directed bond in 3D, counted in the code: bond and t 12, its polynomial 18 (in f64), the
@@ -159,7 +161,7 @@ impl Line {
             share.map_or(String::from("–"), |share| format!("{share:.0}")),
             self.bytes / self.nodes,
             self.bytes / self.directed * 2.0,
-            instructions(&self.name).map_or(String::from("–"), |count| format!("{count:.1}")),
+            self.instructions.map_or(String::from("–"), |count| format!("{count:.1}")),
         )
     }
 }
@@ -206,6 +208,7 @@ impl scenes::Visit for Report {
         let median = median(7, step);
         let line = Line {
             flops: flops(&name),
+            instructions: instructions(&name),
             name,
             median,
             nodes: body.nodes() as f64,

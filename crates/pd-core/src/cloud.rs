@@ -355,10 +355,14 @@ impl<T: Real, const D: usize> Cloud<T, D> {
         let none = Batch { far: 0, kind: 0, there: 0 };
         Walk { cloud: self, bits, lane, at: before, end: end.batch, batch: none, rest: 0 }
     }
+    /// The bonds of a node in their order; the intact ones if bits are given.
+    fn bonds_with<'a>(&'a self, bits: Option<&'a CloudBits>, node: usize) -> Walk<'a, T, D> {
+        let (block, lane) = (node / BLOCK, node % BLOCK);
+        self.walk(self.spans(block)[lane], lane, self.block_bits(bits, block))
+    }
     /// The bonds of a node in their order.
     fn bonds_of(&self, node: usize) -> Walk<'_, T, D> {
-        let lane = node % BLOCK;
-        self.walk(self.spans(node / BLOCK)[lane], lane, None)
+        self.bonds_with(None, node)
     }
     /// `value` of every node and each of its bonds, where every bond has its own shape: in the
     /// order of the shapes.
@@ -994,10 +998,8 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         let mut lost = Vec::new();
         let mut blocks = vec![false; self.blocks.len() - 1];
         for node in 0..self.nodes() {
-            for bond in self.bonds_of(node) {
-                if self.is_intact(Some(bits), node, &bond)
-                    && cuts(node.min(bond.far), node.max(bond.far))
-                {
+            for bond in self.bonds_with(Some(bits), node) {
+                if cuts(node.min(bond.far), node.max(bond.far)) {
                     blocks[node / BLOCK] = true;
                     lost.push((node, bond));
                 }
@@ -1110,10 +1112,9 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         into: &mut Vec<Member<K, D>>,
     ) {
         into.clear();
-        for bond in self.bonds_of(node) {
+        for bond in self.bonds_with(bits, node) {
             let shape = &self.shapes[bond.shape];
-            let intact = self.is_intact(bits, node, &bond);
-            if intact && shape.volumes[0] > T::zero() {
+            if shape.volumes[0] > T::zero() {
                 let volume = shape.volumes[0].to_f64();
                 into.push(Member { xi: shape.xi64(), volume, bond: table.own[bond.shape] });
             }

@@ -527,9 +527,9 @@ where
         // Only one loop is compiled for processors without fused instructions, which are old.
         let full = fused && job.full::<N>(start);
         let block = (start, &near, &own_block);
-        let small = Arithmetic { small: Kn::STRETCH && fused, fused };
-        let mut gathered = fold::<T, D, Kn, I, J, N>(job, full, block, small);
-        if small.small {
+        let quick = Arithmetic { small: Kn::STRETCH && fused, fused };
+        let mut gathered = fold::<T, D, Kn, I, J, N>(job, full, block, quick);
+        if quick.small {
             let mut small = true;
             for l in 0..N {
                 small &= (gathered.high[l] <= limit) & (gathered.low[l] >= -limit);
