@@ -6,8 +6,8 @@
 
 #[path = "scenes.rs"]
 mod scenes;
-use multiversion::multiversion;
 use pd_testkit::clock::{machine, median};
+use peridynamics::core::dispatch::{Vectorised, dispatch};
 use peridynamics::prelude::*;
 use scenes::{M, RHO, cloud, grid, lattice, stretch, wave};
 use std::fmt::Write;
@@ -17,28 +17,34 @@ use std::time::Instant;
 
 /// Cells along an edge of the timed bodies.
 const EDGE2: usize = 256;
-const EDGE3: usize = 48;
+const EDGE3: usize = 64;
 /// The same where instructions are counted.
 const SMALL2: usize = 96;
 const SMALL3: usize = 24;
 
-/// FMA in GFLOP/s of one core, f64.
-#[multiversion(targets("x86_64+avx512f+avx512vl+fma", "x86_64+avx2+fma"))]
-fn multiply_add(x: &mut [[f64; 8]; 12], times: usize) {
-    let mut sums = *x;
-    for _ in 0..times {
-        for sum in &mut sums {
-            for l in 0..8 {
-                sum[l] = sum[l].mul_add(0.999, 1e-3);
+/// 96 independent fused multiply-adds, as often as asked.
+struct MultiplyAdd;
+
+impl Vectorised<(&mut [[f64; 8]; 12], usize)> for MultiplyAdd {
+    type Output = ();
+    #[inline(always)]
+    fn run(&self, (x, times): (&mut [[f64; 8]; 12], usize), _: bool) {
+        let mut sums = *x;
+        for _ in 0..times {
+            for sum in &mut sums {
+                for l in 0..8 {
+                    sum[l] = sum[l].mul_add(0.999, 1e-3);
+                }
             }
         }
+        *x = sums;
     }
-    *x = sums;
 }
 
+/// FMA in GFLOP/s of one core, f64.
 fn fma_peak() -> f64 {
     let (mut x, times) = ([[1.0; 8]; 12], 20_000);
-    let seconds = median(5, || multiply_add(black_box(&mut x), times));
+    let seconds = median(5, || dispatch(&MultiplyAdd, (black_box(&mut x), times)));
     2e-9 * (96 * times) as f64 / seconds
 }
 

@@ -191,7 +191,9 @@ fn open<M: StrainEnergy<f64, 3>>(
     );
     let mut looks: Vec<Look> = Vec::new();
     let grown = |looks: &[Look]| looks.last().map_or(0.0, |look| look.growth);
-    while grown(&looks) < 11.0 * MM && speed * run.time() < 40e-6 {
+    // Twice the energy opens the crack at √2 times the displacement.
+    let scale = (energy / ENERGY).sqrt();
+    while grown(&looks) < 11.0 * MM && speed * run.time() < scale * 40e-6 {
         run.steps_more(10)?;
         let cracks = cracks_of(run.body(), &start, separated);
         let front = cracks.tip(&tip, &ahead)[0];
@@ -250,7 +252,6 @@ fn open<M: StrainEnergy<f64, 3>>(
         let what = name(&format!("energy release rate over {growth} mm [J/m²]"));
         table.hard_near(&what, recovered, energy, 0.15 * energy);
     }
-    let scale = (energy / 12.0).sqrt();
     let mut worst = 0.0_f64;
     let mut last = 0.0;
     for look in &looks {
@@ -294,7 +295,7 @@ fn main() -> Result<()> {
     let split =
         || PositiveSplit::solid(&stiffness, 2000.0, constant).map(Ordinary::new).map_err(other);
     let horizons: &[f64] =
-        effort.choose(&[2.015][..], &[2.015, 3.015], &[2.015, 3.015, 4.015, 5.015]);
+        if effort == Effort::Short { &[2.015] } else { &[2.015, 3.015, 4.015, 5.015] };
     for m in horizons {
         open((lps()?, "LPS"), (MM, *m), speed, false, &mut table)?;
     }

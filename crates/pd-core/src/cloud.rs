@@ -10,6 +10,7 @@
 //! computed bond by bond.
 
 use crate::bond::{Arithmetic, Bond, Member, Scale};
+use crate::dispatch::{Vectorised, dispatch, fuses};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
 use crate::field::{Field, Inputs, Planes};
 use crate::lanes::{Gathered, close};
@@ -19,8 +20,6 @@ use crate::quadrature::Quadrature;
 use crate::record::{LANES, Record};
 use crate::search::neighbours;
 use crate::{Error, Real, Result};
-use multiversion::multiversion;
-use multiversion::target::target_cfg_f;
 use nalgebra::SVector;
 use rayon::prelude::*;
 use std::cmp::Ordering;
@@ -676,31 +675,27 @@ where
     own: J,
 }
 
-// Tests and debug builds compile one version less: each costs a third of their time.
-#[cfg_attr(
-    not(debug_assertions),
-    multiversion(targets(
-        "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
-        "x86_64+avx2+fma"
-    ))
-)]
-#[cfg_attr(debug_assertions, multiversion(targets("x86_64+avx2+fma")))]
-fn sweep_chunk<T, const D: usize, Kn, I, J>(
-    job: &Job<'_, T, D, Kn, I, J>,
-    nodes: Range<usize>,
-    mut out: <Kn::Out as Record<T>>::PlanesMut<'_>,
-) -> T
+/// The largest t of the blocks of a chunk.
+impl<'o, T, const D: usize, Kn, I, J>
+    Vectorised<(Range<usize>, <Kn::Out as Record<T>>::PlanesMut<'o>)> for Job<'_, T, D, Kn, I, J>
 where
     T: Real,
     Kn: BondKernel<T, D>,
     I: Inputs<T, Value = Kn::Node>,
     J: Inputs<T, Value = Kn::Own>,
 {
-    let fused = cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma");
-    if T::WIDE {
-        sweep_blocks::<T, D, Kn, I, J, BLOCK>(job, nodes, &mut out, fused)
-    } else {
-        sweep_blocks::<T, D, Kn, I, J, LANES>(job, nodes, &mut out, fused)
+    type Output = T;
+    #[inline(always)]
+    fn run(
+        &self,
+        (nodes, mut out): (Range<usize>, <Kn::Out as Record<T>>::PlanesMut<'o>),
+        fused: bool,
+    ) -> T {
+        if T::WIDE {
+            sweep_blocks::<T, D, Kn, I, J, BLOCK>(self, nodes, &mut out, fused)
+        } else {
+            sweep_blocks::<T, D, Kn, I, J, LANES>(self, nodes, &mut out, fused)
+        }
     }
 }
 
@@ -872,15 +867,16 @@ where
             let place = usize::from(batch.kind);
             let shape = &self.cloud.shapes[place];
             let pair = Pair { constants: self.table.ends(place), volumes: shape.volumes };
-            let so_far = gathered;
+            let mut with = Gathered::nothing();
             for l in 0..N {
                 let on = there >> l & 1 == 1;
                 let far = <SVector<T, D> as Record<T>>::get::<N>(&u, l);
                 let eta = SVector::from_fn(|d, _| far[d] - near.plane(d)[l]);
                 let bond = Bond::of_kernel(shape.xi, eta, shape.inverse_square, arithmetic);
                 let nodes = [I::lane::<N>(own, l), <I::Value as Record<T>>::get::<N>(&other, l)];
-                gathered.add(&so_far, (l, on), self.kernel, &bond, pair, [&nodes[0], &nodes[1]]);
+                with.add(&gathered, (l, on), self.kernel, &bond, pair, [&nodes[0], &nodes[1]]);
             }
+            gathered = with;
         }
         gathered
     }
@@ -1140,7 +1136,7 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         let job = Job { cloud: self, kernel, table, bits, marked, u, input, own };
         let pieces = (CHUNK, BLOCK);
         sweep_pieces::<T, Kn::Out>(0..self.sites(), pieces, out.planes_mut(), &|sites, out| {
-            sweep_chunk(&job, sites, out)
+            dispatch(&job, (sites, out))
         })
     }
 
@@ -1198,18 +1194,6 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         let CloudBits { begins, bytes, marks } = bits;
         break_range(&one_block, 0, begins, bytes, marks)
     }
-}
-
-#[cfg_attr(
-    not(debug_assertions),
-    multiversion(targets(
-        "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
-        "x86_64+avx2+fma"
-    ))
-)]
-#[cfg_attr(debug_assertions, multiversion(targets("x86_64+avx2+fma")))]
-fn fuses() -> bool {
-    cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma")
 }
 
 /// Halves the blocks until they are one chunk; their bytes and marks are split along.

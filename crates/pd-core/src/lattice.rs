@@ -9,6 +9,7 @@
 //! if it met one that is not.
 
 use crate::bond::{Arithmetic, Bond, Member, Scale};
+use crate::dispatch::{Vectorised, dispatch};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
 use crate::field::{Field, Inputs, Planes};
 use crate::grid::Grid;
@@ -17,8 +18,6 @@ use crate::parallel::{break_pieces, sweep_pieces};
 use crate::quadrature::Quadrature;
 use crate::record::{LANES, Record};
 use crate::{Error, Real, Result};
-use multiversion::multiversion;
-use multiversion::target::target_cfg_f;
 use nalgebra::SVector;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -558,31 +557,27 @@ where
     largest.into_iter().fold(T::zero(), |a, b| if b > a { b } else { a })
 }
 
-// Tests and debug builds compile one version less: each costs a third of their time.
-#[cfg_attr(
-    not(debug_assertions),
-    multiversion(targets(
-        "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
-        "x86_64+avx2+fma"
-    ))
-)]
-#[cfg_attr(debug_assertions, multiversion(targets("x86_64+avx2+fma")))]
-fn sweep_chunk<T, const D: usize, Kn, I, J>(
-    job: &Job<'_, T, D, Kn, I, J>,
-    sites: Range<usize>,
-    out: <Kn::Out as Record<T>>::PlanesMut<'_>,
-) -> T
+/// The largest t of the blocks of a chunk.
+impl<'o, T, const D: usize, Kn, I, J>
+    Vectorised<(Range<usize>, <Kn::Out as Record<T>>::PlanesMut<'o>)> for Job<'_, T, D, Kn, I, J>
 where
     T: Real,
     Kn: BondKernel<T, D>,
     I: Inputs<T, Value = Kn::Node>,
     J: Inputs<T, Value = Kn::Own>,
 {
-    let fused = cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma");
-    if T::WIDE {
-        sweep_blocks::<T, D, Kn, I, J, WIDEST>(job, sites, out, fused)
-    } else {
-        sweep_blocks::<T, D, Kn, I, J, LANES>(job, sites, out, fused)
+    type Output = T;
+    #[inline(always)]
+    fn run(
+        &self,
+        (sites, out): (Range<usize>, <Kn::Out as Record<T>>::PlanesMut<'o>),
+        fused: bool,
+    ) -> T {
+        if T::WIDE {
+            sweep_blocks::<T, D, Kn, I, J, WIDEST>(self, sites, out, fused)
+        } else {
+            sweep_blocks::<T, D, Kn, I, J, LANES>(self, sites, out, fused)
+        }
     }
 }
 
@@ -600,80 +595,73 @@ where
     marks: &'a [AtomicU8],
 }
 
-#[cfg_attr(
-    not(debug_assertions),
-    multiversion(targets(
-        "x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl+fma",
-        "x86_64+avx2+fma"
-    ))
-)]
-#[cfg_attr(debug_assertions, multiversion(targets("x86_64+avx2+fma")))]
-fn break_chunk<T, const D: usize, B, I>(
-    job: &TestJob<'_, T, D, B, I>,
-    blocks: &[u32],
-    bytes: &mut [u8],
-) -> Tally
+impl<T, const D: usize, B, I> Vectorised<(&[u32], &mut [u8])> for TestJob<'_, T, D, B, I>
 where
     T: Real,
     B: BondTest<T, D>,
     I: Inputs<T, Value = B::Node>,
 {
-    let fused = cfg!(target_arch = "aarch64") || target_cfg_f!(target_feature = "fma");
-    let arithmetic = Arithmetic { small: false, fused };
-    let lattice = job.lattice;
-    let half = lattice.half();
-    let mut broken = 0;
-    let mut worst = [T::zero(); LANES];
-    // Kept in memory: the optimiser vectorises towards eight numbers stored side by side.
-    let mut index = [T::zero(); LANES];
-    let index = std::hint::black_box(&mut index);
-    for (&block, bytes) in blocks.iter().zip(bytes.chunks_exact_mut(half)) {
-        let block = block as usize;
-        let start = block * LANES;
-        let near: Planes<'_, T, LANES> = job.u.block(start);
-        let own_block = job.input.block::<LANES>(start);
-        let owned = lattice.offsets[half..].iter().zip(&job.table[half..]);
-        for (byte, (offset, k)) in bytes.iter_mut().zip(owned) {
-            if *byte == 0 {
-                continue;
-            }
-            let beyond = start.wrapping_add_signed(offset.site);
-            let far = job.u.block(beyond);
-            let other_block = job.input.block::<LANES>(beyond);
-            let pair = Pair { constants: [k, k], volumes: [T::one(); 2] };
-            *index = std::array::from_fn(|l| {
-                let eta = relative(&near, &far, l);
-                let bond = offset.bond(eta, arithmetic);
-                let (own, other) =
-                    (I::lane::<LANES>(&own_block, l), I::lane::<LANES>(&other_block, l));
-                job.test.index(&bond, pair, [&own, &other])
-            });
-            if *byte != 0xff {
-                for l in 0..LANES {
-                    index[l] = if *byte >> l & 1 == 1 { index[l] } else { T::zero() };
+    type Output = Tally;
+    #[inline(always)]
+    fn run(&self, (blocks, bytes): (&[u32], &mut [u8]), fused: bool) -> Tally {
+        let arithmetic = Arithmetic { small: false, fused };
+        let job = self;
+        let lattice = job.lattice;
+        let half = lattice.half();
+        let mut broken = 0;
+        let mut worst = [T::zero(); LANES];
+        // Kept in memory: the optimiser vectorises towards eight numbers stored side by side.
+        let mut index = [T::zero(); LANES];
+        let index = std::hint::black_box(&mut index);
+        for (&block, bytes) in blocks.iter().zip(bytes.chunks_exact_mut(half)) {
+            let block = block as usize;
+            let start = block * LANES;
+            let near: Planes<'_, T, LANES> = job.u.block(start);
+            let own_block = job.input.block::<LANES>(start);
+            let owned = lattice.offsets[half..].iter().zip(&job.table[half..]);
+            for (byte, (offset, k)) in bytes.iter_mut().zip(owned) {
+                if *byte == 0 {
+                    continue;
                 }
-            }
-            let mut fail = false;
-            for l in 0..LANES {
-                worst[l] = if index[l] > worst[l] { index[l] } else { worst[l] };
-                fail |= index[l] > T::one();
-            }
-            if fail {
-                let fails = (0..LANES).fold(0_u8, |f, l| f | u8::from(index[l] > T::one()) << l);
-                *byte &= !fails;
-                broken += fails.count_ones() as usize;
-                job.full[block].store(0, Relaxed);
-                job.marks[block].fetch_or(fails, Relaxed);
-                for l in (0..LANES).filter(|l| fails >> l & 1 == 1) {
-                    let site = beyond + l;
-                    job.full[site / LANES].store(0, Relaxed);
-                    job.marks[site / LANES].fetch_or(1 << (site % LANES), Relaxed);
+                let beyond = start.wrapping_add_signed(offset.site);
+                let far = job.u.block(beyond);
+                let other_block = job.input.block::<LANES>(beyond);
+                let pair = Pair { constants: [k, k], volumes: [T::one(); 2] };
+                *index = std::array::from_fn(|l| {
+                    let eta = relative(&near, &far, l);
+                    let bond = offset.bond(eta, arithmetic);
+                    let (own, other) =
+                        (I::lane::<LANES>(&own_block, l), I::lane::<LANES>(&other_block, l));
+                    job.test.index(&bond, pair, [&own, &other])
+                });
+                if *byte != 0xff {
+                    for l in 0..LANES {
+                        index[l] = if *byte >> l & 1 == 1 { index[l] } else { T::zero() };
+                    }
+                }
+                let mut fail = false;
+                for l in 0..LANES {
+                    worst[l] = if index[l] > worst[l] { index[l] } else { worst[l] };
+                    fail |= index[l] > T::one();
+                }
+                if fail {
+                    let fails =
+                        (0..LANES).fold(0_u8, |f, l| f | u8::from(index[l] > T::one()) << l);
+                    *byte &= !fails;
+                    broken += fails.count_ones() as usize;
+                    job.full[block].store(0, Relaxed);
+                    job.marks[block].fetch_or(fails, Relaxed);
+                    for l in (0..LANES).filter(|l| fails >> l & 1 == 1) {
+                        let site = beyond + l;
+                        job.full[site / LANES].store(0, Relaxed);
+                        job.marks[site / LANES].fetch_or(1 << (site % LANES), Relaxed);
+                    }
                 }
             }
         }
+        let worst = worst.iter().fold(0.0_f64, |w, x| w.max(x.to_f64()));
+        Tally { broken, worst }
     }
-    let worst = worst.iter().fold(0.0_f64, |w, x| w.max(x.to_f64()));
-    Tally { broken, worst }
 }
 
 impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
@@ -911,7 +899,7 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         let job = Job { lattice: self, kernel, table, bits, marked, u, input, own };
         let pieces = (CHUNK * LANES, WIDEST);
         sweep_pieces::<T, Kn::Out>(0..self.sites, pieces, out.planes_mut(), &|sites, out| {
-            sweep_chunk(&job, sites, out)
+            dispatch(&job, (sites, out))
         })
     }
 
@@ -931,7 +919,7 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         let job = TestJob { lattice: self, test, table, u, input, full, marks };
         let blocks = &bits.blocks[..];
         break_pieces(&mut bits.bytes, CHUNK * bits.half, &|chunk, bytes| {
-            break_chunk(&job, &blocks[chunk * CHUNK..], bytes)
+            dispatch(&job, (&blocks[chunk * CHUNK..], bytes))
         })
     }
 }

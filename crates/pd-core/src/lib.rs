@@ -10,6 +10,7 @@ pub mod convergence;
 pub mod crack;
 pub mod damage;
 mod diagonal;
+pub mod dispatch;
 pub mod error;
 pub mod family;
 pub mod field;
