@@ -68,30 +68,35 @@ impl<const D: usize> Points<D> {
     /// The cells of a grid, each halved along every axis until it is no wider than `spacing` allows at
     /// its centre, in metres: squares (cubes) of edges Δx, Δx/2, Δx/4, …, one node in each. The finest
     /// edge becomes the unit of length. [`edge`](Self::edge) gives what horizons are multiples of.
+    /// Nodes are numbered in rows along x, which is what the kernels of a cloud are fastest at.
     ///
     /// # Errors
     /// [`Error::InvalidValue`] for a spacing that is not finite and positive.
     pub fn refined(grid: &Grid<D>, spacing: impl Fn(&SVector<f64, D>) -> f64) -> Result<Self> {
-        let (mut positions, mut volumes) = (Vec::new(), Vec::new());
+        let mut nodes = Vec::new();
         let mut finest = f64::INFINITY;
-        // Cells yet to look at, with how often they were halved; the first on top.
+        // Cells yet to look at, with how often they were halved.
         let mut cells: Vec<_> = grid.positions().map(|x| (x, 0)).collect();
-        cells.reverse();
         while let Some((x, halved)) = cells.pop() {
             let edges = grid.spacing() * 0.5_f64.powi(halved);
             let wanted = Error::positive("spacing wanted of a cloud [m]", spacing(&x))?;
             // A wanted edge that is off by rounding is met.
             if edges.max() <= wanted * (1.0 + 1e-9) {
-                positions.push(x);
-                volumes.push(edges.product());
+                nodes.push((x, edges.product()));
                 finest = edges.max().min(finest);
                 continue;
             }
-            for part in (0..1_usize << D).rev() {
+            for part in 0..1_usize << D {
                 let side = |d: usize| if part >> d & 1 == 1 { 0.25 } else { -0.25 };
                 cells.push((SVector::from_fn(|d, _| x[d] + side(d) * edges[d]), halved + 1));
             }
         }
+        let by_rows = |a: &SVector<f64, D>, b: &SVector<f64, D>| {
+            let axes = (0..D).rev().map(|d| a[d].total_cmp(&b[d]));
+            axes.fold(Ordering::Equal, Ordering::then)
+        };
+        nodes.sort_unstable_by(|(a, _), (b, _)| by_rows(a, b));
+        let (positions, volumes) = nodes.into_iter().unzip();
         Self::new(positions, volumes)?.with_spacing(finest)
     }
     /// With this unit of length Δx in metres: horizon ratios refer to it.
