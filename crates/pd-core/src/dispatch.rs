@@ -2,8 +2,8 @@
 //! that users need no compiler flags.
 //!
 //! Own code because the libraries for it do not serve here: `multiversion` withholds AVX-512 from
-//! processors before Ice Lake, on which these loops are 1.3 to 2.3 times as fast with it, and `pulp`
-//! brings in a crate that nobody maintains.
+//! processors before Ice Lake, on which these loops are faster with it too, and `pulp` brings in a
+//! crate that nobody maintains.
 #![allow(unsafe_code)]
 
 /// A loop over a piece of the work.

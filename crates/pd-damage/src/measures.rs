@@ -29,10 +29,12 @@ struct Row {
 /// use pd_damage::Measures;
 /// let mut measures = Measures::new("plate", "cargo run --release --example plate");
 /// measures.hard_near("line angle [°]", 44.1, 45.0, 3.0).soft_most("mirror error", 0.07, 0.05);
+/// measures.soft_near("angle of the second crack [°]", f64::NAN, 45.0, 3.0);
 /// measures.compared("force [N]", 103.0, 100.0);
 /// assert!(measures.passed());
 /// assert!(measures.to_string().contains("line angle [°] (HARD) | 45 ± 3 | 44.10 | yes"));
 /// assert!(measures.to_string().contains("mirror error (SOFT) | ≤ 0.05 | 0.07000 | no"));
+/// assert!(measures.to_string().contains("second crack [°] (SOFT) | 45 ± 3 | none | no"));
 /// assert!(measures.to_string().contains("force [N] | 100.0 | 103.0 (+3.0 %) | –"));
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -42,10 +44,12 @@ pub struct Measures {
     rows: Vec<Row>,
 }
 
-/// Four digits that count.
+/// Four digits that count; NaN is what found nothing to measure.
 fn digits(x: f64) -> String {
     let size = x.abs();
-    if x == 0.0 {
+    if x.is_nan() {
+        "none".to_owned()
+    } else if x == 0.0 {
         "0".to_owned()
     } else if !(1e-4..1e5).contains(&size) {
         format!("{x:.3e}")
