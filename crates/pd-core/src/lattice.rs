@@ -605,8 +605,7 @@ where
     #[inline(always)]
     fn run(&self, (blocks, bytes): (&[u32], &mut [u8]), fused: bool) -> Tally {
         let arithmetic = Arithmetic { small: false, fused };
-        let job = self;
-        let lattice = job.lattice;
+        let lattice = self.lattice;
         let half = lattice.half();
         let mut broken = 0;
         let mut worst = [T::zero(); LANES];
@@ -616,23 +615,23 @@ where
         for (&block, bytes) in blocks.iter().zip(bytes.chunks_exact_mut(half)) {
             let block = block as usize;
             let start = block * LANES;
-            let near: Planes<'_, T, LANES> = job.u.block(start);
-            let own_block = job.input.block::<LANES>(start);
-            let owned = lattice.offsets[half..].iter().zip(&job.table[half..]);
+            let near: Planes<'_, T, LANES> = self.u.block(start);
+            let own_block = self.input.block::<LANES>(start);
+            let owned = lattice.offsets[half..].iter().zip(&self.table[half..]);
             for (byte, (offset, k)) in bytes.iter_mut().zip(owned) {
                 if *byte == 0 {
                     continue;
                 }
                 let beyond = start.wrapping_add_signed(offset.site);
-                let far = job.u.block(beyond);
-                let other_block = job.input.block::<LANES>(beyond);
+                let far = self.u.block(beyond);
+                let other_block = self.input.block::<LANES>(beyond);
                 let pair = Pair { constants: [k, k], volumes: [T::one(); 2] };
                 *index = std::array::from_fn(|l| {
                     let eta = relative(&near, &far, l);
                     let bond = offset.bond(eta, arithmetic);
                     let (own, other) =
                         (I::lane::<LANES>(&own_block, l), I::lane::<LANES>(&other_block, l));
-                    job.test.index(&bond, pair, [&own, &other])
+                    self.test.index(&bond, pair, [&own, &other])
                 });
                 if *byte != 0xff {
                     for l in 0..LANES {
@@ -649,12 +648,12 @@ where
                         (0..LANES).fold(0_u8, |f, l| f | u8::from(index[l] > T::one()) << l);
                     *byte &= !fails;
                     broken += fails.count_ones() as usize;
-                    job.full[block].store(0, Relaxed);
-                    job.marks[block].fetch_or(fails, Relaxed);
+                    self.full[block].store(0, Relaxed);
+                    self.marks[block].fetch_or(fails, Relaxed);
                     for l in (0..LANES).filter(|l| fails >> l & 1 == 1) {
                         let site = beyond + l;
-                        job.full[site / LANES].store(0, Relaxed);
-                        job.marks[site / LANES].fetch_or(1 << (site % LANES), Relaxed);
+                        self.full[site / LANES].store(0, Relaxed);
+                        self.marks[site / LANES].fetch_or(1 << (site % LANES), Relaxed);
                     }
                 }
             }
