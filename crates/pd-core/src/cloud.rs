@@ -10,7 +10,7 @@
 //! computed bond by bond.
 
 use crate::bond::{Arithmetic, Bond, Member, Scale};
-use crate::dispatch::{Vectorised, dispatch, fuses};
+use crate::dispatch::{Vectorised, dispatch};
 use crate::family::{BondKernel, BondTest, Family, Horizon, Neighbour, Pair, Tally, Visit};
 use crate::field::{Field, Inputs, Planes};
 use crate::lanes::{Gathered, close};
@@ -1152,47 +1152,77 @@ impl<T: Real, const D: usize> Family<T, D> for Cloud<T, D> {
         B: BondTest<T, D>,
         I: Inputs<T, Value = B::Node>,
     {
-        // Both rows of a bond evaluate it from its lower to its higher node: the same numbers,
-        // so the same verdict, and every task writes its own rows only.
-        let arithmetic = Arithmetic { small: false, fused: fuses() };
+        let job = TestJob { cloud: self, test, table, u, input };
         let one_block = |block: usize, bytes: &mut [u8], marks: &mut [AtomicU8]| {
-            let mut tally = Tally::default();
-            let (begin, spans) = (self.blocks[block].batch, self.spans(block));
-            for (lane, mark) in marks.iter_mut().enumerate() {
-                let node = block * BLOCK + lane;
-                let own = (input.load(node), u.get(node));
-                for at in self.walk(spans[lane], lane, None) {
-                    let byte = &mut bytes[2 * (at.batch - begin) + at.bit as usize / 8];
-                    if *byte >> (at.bit % 8) & 1 == 0 {
-                        continue;
-                    }
-                    let (j, shape) = (at.far, &self.shapes[at.shape]);
-                    let other = (input.load(j), u.get(j));
-                    let constants = table.ends(at.shape);
-                    let eta = other.1 - own.1;
-                    let bond = Bond::of_kernel(shape.xi, eta, shape.inverse_square, arithmetic);
-                    let seen =
-                        shape.volumes.map(|v| if v > T::zero() { T::one() } else { T::zero() });
-                    let index = if node < j {
-                        let pair = Pair { constants, volumes: seen };
-                        test.index(&bond, pair, [&own.0, &other.0])
-                    } else {
-                        let ([a, b], [v, w]) = (constants, seen);
-                        let pair = Pair { constants: [b, a], volumes: [w, v] };
-                        test.index(&bond.reversed(), pair, [&other.0, &own.0])
-                    };
-                    tally.worst = tally.worst.max(index.to_f64());
-                    if index > T::one() {
-                        *byte &= !(1 << (at.bit % 8));
-                        *mark.get_mut() = 1;
-                        tally.broken += usize::from(node < j);
-                    }
-                }
-            }
-            tally
+            dispatch(&job, (block, bytes, marks))
         };
         let CloudBits { begins, bytes, marks } = bits;
         break_range(&one_block, 0, begins, bytes, marks)
+    }
+}
+
+/// Everything a block of a test reads.
+struct TestJob<'a, T, const D: usize, B: BondTest<T, D>, I>
+where
+    T: Real,
+{
+    cloud: &'a Cloud<T, D>,
+    test: &'a B,
+    table: &'a RowTable<B::Const>,
+    u: &'a Field<T, SVector<T, D>>,
+    input: I,
+}
+
+/// Both rows of a bond evaluate it from its lower to its higher node: the same numbers, so the same
+/// verdict, and every task writes its own rows only.
+impl<T, const D: usize, B, I> Vectorised<(usize, &mut [u8], &mut [AtomicU8])>
+    for TestJob<'_, T, D, B, I>
+where
+    T: Real,
+    B: BondTest<T, D>,
+    I: Inputs<T, Value = B::Node>,
+{
+    type Output = Tally;
+    #[inline(always)]
+    fn run(
+        &self,
+        (block, bytes, marks): (usize, &mut [u8], &mut [AtomicU8]),
+        fused: bool,
+    ) -> Tally {
+        let arithmetic = Arithmetic { small: false, fused };
+        let mut tally = Tally::default();
+        let (begin, spans) = (self.cloud.blocks[block].batch, self.cloud.spans(block));
+        for (lane, mark) in marks.iter_mut().enumerate() {
+            let node = block * BLOCK + lane;
+            let own = (self.input.load(node), self.u.get(node));
+            for at in self.cloud.walk(spans[lane], lane, None) {
+                let byte = &mut bytes[2 * (at.batch - begin) + at.bit as usize / 8];
+                if *byte >> (at.bit % 8) & 1 == 0 {
+                    continue;
+                }
+                let (j, shape) = (at.far, &self.cloud.shapes[at.shape]);
+                let other = (self.input.load(j), self.u.get(j));
+                let constants = self.table.ends(at.shape);
+                let eta = other.1 - own.1;
+                let bond = Bond::of_kernel(shape.xi, eta, shape.inverse_square, arithmetic);
+                let seen = shape.volumes.map(|v| if v > T::zero() { T::one() } else { T::zero() });
+                let index = if node < j {
+                    let pair = Pair { constants, volumes: seen };
+                    self.test.index(&bond, pair, [&own.0, &other.0])
+                } else {
+                    let ([a, b], [v, w]) = (constants, seen);
+                    let pair = Pair { constants: [b, a], volumes: [w, v] };
+                    self.test.index(&bond.reversed(), pair, [&other.0, &own.0])
+                };
+                tally.worst = tally.worst.max(index.to_f64());
+                if index > T::one() {
+                    *byte &= !(1 << (at.bit % 8));
+                    *mark.get_mut() = 1;
+                    tally.broken += usize::from(node < j);
+                }
+            }
+        }
+        tally
     }
 }
 

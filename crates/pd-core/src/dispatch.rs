@@ -11,7 +11,8 @@ pub trait Vectorised<Piece> {
     /// What it finds.
     type Output;
     /// Goes through `piece`; `fused` says, as a constant, that a · b + c is one instruction. To be
-    /// `#[inline(always)]` with all it calls, else it is compiled for the oldest processors.
+    /// `#[inline(always)]` with all it calls, and without closures around arithmetic: what is not
+    /// inlined is compiled for the oldest processors, where a fused multiply-add is a call.
     fn run(&self, piece: Piece, fused: bool) -> Self::Output;
 }
 
@@ -39,14 +40,6 @@ pub fn dispatch<Piece, W: Vectorised<Piece>>(work: &W, piece: Piece) -> W::Outpu
         }
     }
     work.run(piece, cfg!(target_arch = "aarch64"))
-}
-
-/// Whether [`dispatch`] runs its work with `fused`.
-pub fn fuses() -> bool {
-    #[cfg(target_arch = "x86_64")]
-    return has_avx2();
-    #[cfg(not(target_arch = "x86_64"))]
-    return cfg!(target_arch = "aarch64");
 }
 
 #[cfg(target_arch = "x86_64")]

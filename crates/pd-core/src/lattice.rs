@@ -626,13 +626,16 @@ where
                 let far = self.u.block(beyond);
                 let other_block = self.input.block::<LANES>(beyond);
                 let pair = Pair { constants: [k, k], volumes: [T::one(); 2] };
-                *index = std::array::from_fn(|l| {
+                // No closure, which may be compiled on its own, without this processor's instructions.
+                let mut found = [T::zero(); LANES];
+                for l in 0..LANES {
                     let eta = relative(&near, &far, l);
                     let bond = offset.bond(eta, arithmetic);
-                    let (own, other) =
-                        (I::lane::<LANES>(&own_block, l), I::lane::<LANES>(&other_block, l));
-                    self.test.index(&bond, pair, [&own, &other])
-                });
+                    let own = I::lane::<LANES>(&own_block, l);
+                    let other = I::lane::<LANES>(&other_block, l);
+                    found[l] = self.test.index(&bond, pair, [&own, &other]);
+                }
+                *index = found;
                 if *byte != 0xff {
                     for l in 0..LANES {
                         index[l] = if *byte >> l & 1 == 1 { index[l] } else { T::zero() };
