@@ -63,3 +63,27 @@ fn avx2_and_avx512_give_the_same_bits() {
     assert!(wide.len() >= 2 * 17, "{} scenes", wide.len());
     assert_eq!(wide, narrow);
 }
+
+/// A body whose bonds break by their energy, which is a pass of its own.
+fn by_energy<F: Family<f64, 3>>(family: F) {
+    let moduli = Isotropic::from_young_poisson(1e9, 0.25).expect("moduli");
+    let model = LinearSolid::solid(&moduli, scenes::RHO, InfluenceFunction::Constant);
+    let critical = BondEnergy::new(1.0).expect("critical energy");
+    let material = Ordinary::new(model.expect("model"));
+    let mut body = Body::new(family, material, Breaking::new(critical)).expect("body");
+    body.evaluate_and_break(1, &mut ()).expect("step");
+}
+
+/// Arithmetic that is compiled apart from its loop lacks the loop's instructions: a fused multiply-add
+/// is then a call, which took seven times as long. No such call is linked.
+#[test]
+#[ignore = "needs nm"]
+fn no_fused_multiply_add_is_a_call() {
+    by_energy(scenes::lattice::<f64, 3>(&scenes::grid(11)));
+    by_energy(scenes::cloud::<f64, 3>(&scenes::grid(11)));
+    let output = Command::new("nm").arg(std::env::current_exe().expect("this program")).output();
+    let symbols = String::from_utf8(output.expect("nm is installed").stdout).expect("text");
+    let linked = |name: &str| symbols.lines().any(|line| line.split(' ').next_back() == Some(name));
+    assert!(symbols.lines().count() > 1000, "{} symbols", symbols.lines().count());
+    assert!(!linked("fma") && !linked("fmaf"));
+}
