@@ -36,6 +36,13 @@ const WHOLE: u32 = u32::MAX;
 /// The row of zeros of all blocks without nodes.
 const EMPTY: u32 = 0;
 
+/// A block with every neighbour of every lane there and intact.
+const FULL: u8 = 1;
+/// A block at an outline, all of whose bonds are intact.
+const UNCUT: u8 = 2;
+/// A block that lost a bond.
+const CUT: u8 = 0;
+
 /// Most sites that a kernel takes together.
 const WIDEST: usize = 2 * LANES;
 /// Sites before the first node, one block: a neighbour before the arrays is then before every lane of
@@ -110,7 +117,7 @@ pub struct LatticeBits {
     /// `bytes[row * half + h]`, offset `half + h`.
     bytes: Vec<u8>,
     half: usize,
-    /// Per block: 1 if every neighbour of every lane is there and intact.
+    /// Per block: [`FULL`], [`UNCUT`] or [`CUT`].
     full: Vec<AtomicU8>,
     /// Per block: the lanes that lost a bond since the marks were cleared.
     marks: Vec<AtomicU8>,
@@ -304,7 +311,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             let row = self.row_of(bits, block);
             bits.bytes[row * bits.half + h] &= !(1 << lane);
             for s in [site, site.wrapping_add_signed(self.offsets[offset].site)] {
-                bits.full[s / LANES].store(0, Relaxed);
+                bits.full[s / LANES].store(CUT, Relaxed);
                 bits.marks[s / LANES].fetch_or(1 << (s % LANES), Relaxed);
             }
         }
@@ -342,7 +349,11 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             blocks: vec![0],
             bytes: vec![0; half],
             half,
-            full: self.interior.iter().map(|&i| AtomicU8::new(i.into())).collect(),
+            full: self
+                .interior
+                .iter()
+                .map(|&interior| AtomicU8::new(if interior { FULL } else { UNCUT }))
+                .collect(),
             marks: (0..blocks).map(|_| AtomicU8::new(0)).collect(),
         }
     }
@@ -456,8 +467,13 @@ where
         }
     } else {
         let nodes = job.lattice.present_from::<N>(block.0);
+        let bits = job.cut::<N>(block.0);
         for (o, entry) in offsets.enumerate() {
-            let there = nodes & job.there::<N>(block.0, o);
+            let there = match bits {
+                Some(bits) => job.lattice.intact_beyond::<N>(bits, block.0, o),
+                None => job.lattice.present_beyond::<N>(block.0, o),
+            };
+            let there = nodes & there;
             if there != 0 {
                 gathered = add_lanes::<T, D, Kn, I, J, N, true>(
                     job, gathered, entry, there, block, arithmetic,
@@ -469,20 +485,17 @@ where
 }
 
 impl<T: Real, const D: usize, Kn: BondKernel<T, D>, I, J> Job<'_, T, D, Kn, I, J> {
-    /// Beyond which of the N sites from `start` on there is a node along an offset, with an intact bond
-    /// if bonds can be missing.
+    /// The bits to look at for the N sites from `start` on: none if they lost no bond.
     #[inline(always)]
-    fn there<const N: usize>(&self, start: usize, offset: usize) -> u32 {
-        match self.bits {
-            Some(bits) => self.lattice.intact_beyond::<N>(bits, start, offset),
-            None => self.lattice.present_beyond::<N>(start, offset),
-        }
+    fn cut<const N: usize>(&self, start: usize) -> Option<&LatticeBits> {
+        let cut = |bits: &LatticeBits, block: usize| bits.full[block].load(Relaxed) == CUT;
+        self.bits.filter(|bits| (start / LANES..(start + N) / LANES).any(|block| cut(bits, block)))
     }
     /// Whether all neighbours of the N nodes from `start` on are there and intact.
     #[inline(always)]
     fn full<const N: usize>(&self, start: usize) -> bool {
         (start / LANES..(start + N) / LANES).all(|block| match self.bits {
-            Some(bits) => bits.full[block].load(Relaxed) == 1,
+            Some(bits) => bits.full[block].load(Relaxed) == FULL,
             None => self.lattice.interior[block],
         })
     }
@@ -651,11 +664,11 @@ where
                         (0..LANES).fold(0_u8, |f, l| f | u8::from(index[l] > T::one()) << l);
                     *byte &= !fails;
                     broken += fails.count_ones() as usize;
-                    self.full[block].store(0, Relaxed);
+                    self.full[block].store(CUT, Relaxed);
                     self.marks[block].fetch_or(fails, Relaxed);
                     for l in (0..LANES).filter(|l| fails >> l & 1 == 1) {
                         let site = beyond + l;
-                        self.full[site / LANES].store(0, Relaxed);
+                        self.full[site / LANES].store(CUT, Relaxed);
                         self.marks[site / LANES].fetch_or(1 << (site % LANES), Relaxed);
                     }
                 }
