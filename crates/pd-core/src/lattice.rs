@@ -21,7 +21,7 @@ use crate::{Error, Real, Result};
 use nalgebra::SVector;
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering::Relaxed};
 
 /// Blocks that one task works on: fixed, so that nothing depends on the number of threads.
 const CHUNK: usize = 64;
@@ -35,13 +35,6 @@ const PLANE_IN_PAGE: usize = 26 * 64;
 const WHOLE: u32 = u32::MAX;
 /// The row of zeros of all blocks without nodes.
 const EMPTY: u32 = 0;
-
-/// A block with every neighbour of every lane there and intact.
-const FULL: u8 = 1;
-/// A block at an outline, all of whose bonds are intact.
-const UNCUT: u8 = 2;
-/// A block that lost a bond.
-const CUT: u8 = 0;
 
 /// Most sites that a kernel takes together.
 const WIDEST: usize = 2 * LANES;
@@ -117,8 +110,8 @@ pub struct LatticeBits {
     /// `bytes[row * half + h]`, offset `half + h`.
     bytes: Vec<u8>,
     half: usize,
-    /// Per block: [`FULL`], [`UNCUT`] or [`CUT`].
-    full: Vec<AtomicU8>,
+    /// Per block: did one of its nodes lose a bond?
+    cut: Vec<AtomicBool>,
     /// Per block: the lanes that lost a bond since the marks were cleared.
     marks: Vec<AtomicU8>,
 }
@@ -311,7 +304,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             let row = self.row_of(bits, block);
             bits.bytes[row * bits.half + h] &= !(1 << lane);
             for s in [site, site.wrapping_add_signed(self.offsets[offset].site)] {
-                bits.full[s / LANES].store(CUT, Relaxed);
+                bits.cut[s / LANES].store(true, Relaxed);
                 bits.marks[s / LANES].fetch_or(1 << (s % LANES), Relaxed);
             }
         }
@@ -349,11 +342,7 @@ impl<T: Real, const D: usize> Lattice<T, D> {
             blocks: vec![0],
             bytes: vec![0; half],
             half,
-            full: self
-                .interior
-                .iter()
-                .map(|&interior| AtomicU8::new(if interior { FULL } else { UNCUT }))
-                .collect(),
+            cut: (0..blocks).map(|_| AtomicBool::new(false)).collect(),
             marks: (0..blocks).map(|_| AtomicU8::new(0)).collect(),
         }
     }
@@ -488,16 +477,14 @@ impl<T: Real, const D: usize, Kn: BondKernel<T, D>, I, J> Job<'_, T, D, Kn, I, J
     /// The bits to look at for the N sites from `start` on: none if they lost no bond.
     #[inline(always)]
     fn cut<const N: usize>(&self, start: usize) -> Option<&LatticeBits> {
-        let cut = |bits: &LatticeBits, block: usize| bits.full[block].load(Relaxed) == CUT;
-        self.bits.filter(|bits| (start / LANES..(start + N) / LANES).any(|block| cut(bits, block)))
+        let blocks = start / LANES..(start + N) / LANES;
+        self.bits.filter(|bits| bits.cut[blocks].iter().any(|cut| cut.load(Relaxed)))
     }
     /// Whether all neighbours of the N nodes from `start` on are there and intact.
     #[inline(always)]
     fn full<const N: usize>(&self, start: usize) -> bool {
-        (start / LANES..(start + N) / LANES).all(|block| match self.bits {
-            Some(bits) => bits.full[block].load(Relaxed) == FULL,
-            None => self.lattice.interior[block],
-        })
+        let mut interior = self.lattice.interior[start / LANES..(start + N) / LANES].iter();
+        interior.all(|&interior| interior) && self.cut::<N>(start).is_none()
     }
     /// The nodes among the N sites from `start` on, none if they are not to be visited.
     #[inline(always)]
@@ -604,7 +591,7 @@ where
     table: &'a [B::Const],
     u: &'a Field<T, SVector<T, D>>,
     input: I,
-    full: &'a [AtomicU8],
+    cut: &'a [AtomicBool],
     marks: &'a [AtomicU8],
 }
 
@@ -664,11 +651,11 @@ where
                         (0..LANES).fold(0_u8, |f, l| f | u8::from(index[l] > T::one()) << l);
                     *byte &= !fails;
                     broken += fails.count_ones() as usize;
-                    self.full[block].store(CUT, Relaxed);
+                    self.cut[block].store(true, Relaxed);
                     self.marks[block].fetch_or(fails, Relaxed);
                     for l in (0..LANES).filter(|l| fails >> l & 1 == 1) {
                         let site = beyond + l;
-                        self.full[site / LANES].store(CUT, Relaxed);
+                        self.cut[site / LANES].store(true, Relaxed);
                         self.marks[site / LANES].fetch_or(1 << (site % LANES), Relaxed);
                     }
                 }
@@ -754,10 +741,10 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         bits
     }
     fn bits_bytes(bits: &LatticeBits) -> usize {
-        let LatticeBits { rows, blocks, bytes, full, marks, .. } = bits;
+        let LatticeBits { rows, blocks, bytes, cut, marks, .. } = bits;
         4 * (rows.capacity() + blocks.capacity())
             + bytes.capacity()
-            + full.capacity()
+            + cut.capacity()
             + marks.capacity()
     }
     fn cut(&self, bits: &mut LatticeBits, cuts: &(dyn Fn(usize, usize) -> bool + Sync)) -> usize {
@@ -803,16 +790,14 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         }
     }
     fn copy_bits(bits: &LatticeBits) -> LatticeBits {
-        let copy =
-            |from: &[AtomicU8]| from.iter().map(|x| AtomicU8::new(x.load(Relaxed))).collect();
-        let LatticeBits { rows, blocks, bytes, half, full, marks } = bits;
+        let LatticeBits { rows, blocks, bytes, half, cut, marks } = bits;
         LatticeBits {
             rows: rows.clone(),
             blocks: blocks.clone(),
             bytes: bytes.clone(),
             half: *half,
-            full: copy(full),
-            marks: copy(marks),
+            cut: cut.iter().map(|cut| AtomicBool::new(cut.load(Relaxed))).collect(),
+            marks: marks.iter().map(|mark| AtomicU8::new(mark.load(Relaxed))).collect(),
         }
     }
     fn copy_marks(bits: &mut LatticeBits, other: &LatticeBits) {
@@ -930,8 +915,8 @@ impl<T: Real, const D: usize> Family<T, D> for Lattice<T, D> {
         B: BondTest<T, D>,
         I: Inputs<T, Value = B::Node>,
     {
-        let (full, marks) = (&bits.full[..], &bits.marks[..]);
-        let job = TestJob { lattice: self, test, table, u, input, full, marks };
+        let (cut, marks) = (&bits.cut[..], &bits.marks[..]);
+        let job = TestJob { lattice: self, test, table, u, input, cut, marks };
         let blocks = &bits.blocks[..];
         break_pieces(&mut bits.bytes, CHUNK * bits.half, &|chunk, bytes| {
             dispatch(&job, (&blocks[chunk * CHUNK..], bytes))

@@ -103,7 +103,8 @@ impl Measures {
     /// A figure beside one it may be compared with, and by how much it is larger.
     pub fn compared(&mut self, measure: &str, got: f64, reference: f64) -> &mut Self {
         let more = 100.0 * (got - reference) / reference.abs();
-        let got = format!("{} ({more:+.1} %)", digits(got));
+        let more = if got.is_nan() { String::new() } else { format!(" ({more:+.1} %)") };
+        let got = digits(got) + &more;
         self.row(measure, &digits(reference), &got, None)
     }
     /// A measure that must lie within `tolerance` of `reference`. NaN (nothing to measure) fails.

@@ -69,6 +69,9 @@ fn refined_cells_fill_the_grid() {
     let points = Points::refined(&grid, wanted).unwrap();
     assert_relative_eq!((0..points.len()).map(|i| points.volume(i)).sum::<f64>(), 64.0);
     assert_eq!(points.spacing(), 0.25);
+    let rows: Vec<_> =
+        (0..points.len()).map(|i| points.position(i)).map(|x| [x.z, x.y, x.x]).collect();
+    assert!(rows.is_sorted(), "numbered in rows along x");
     for node in 0..points.len() {
         let (x, edge) = (points.position(node), points.edge(node));
         // No wider than asked for, never halved without need, and on the grid of its own edge.
